@@ -3,6 +3,7 @@
 // that reading a scene also writes the resolved one. Errors are collected, not thrown: Document::check() reports all of
 // them at once, each as "scene.yaml:14: colloidal.electrostatic.debye_length: "5 nmm" is not a length; write e.g. "5 nm"".
 // A reader that met an error returns a harmless value (the default, or the low end of the range) and goes on.
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
@@ -69,8 +70,11 @@ class Node {
   std::vector<Node> blocks(const std::string& key);  // a list of blocks; absent: empty
   std::vector<std::string> keys() const;             // as written in the scene, in order
 
-  // Something is wrong with this key although each value is well-formed ("min: must be below max (2 um)").
+  // Something is wrong with this key although each value is well-formed ("min: must be below max (2 um)"). An empty key
+  // means the block itself. A key that already has an error keeps its first.
   void error(const std::string& key, const std::string& message);
+  // Whether an error stands at this key: then its value is a stand-in, and checks against other keys are pointless.
+  bool failed(const std::string& key) const;
   std::string path() const;  // "colloidal.electrostatic"
 
   struct Data;
@@ -96,9 +100,13 @@ class Document {
   // InputError holding all errors, one a line, in order of line; returns if there are none.
   void check();
   bool has_errors() const;
+  const std::filesystem::path& folder() const;  // of the scene: what file names in it are relative to
   // The resolved scene as YAML: what was written, and every default that was read, in order of reading. With `blocks`:
-  // only those top-level keys. Deterministic bytes; comments and formatting of the source do not show.
+  // only those top-level keys. Deterministic bytes; comments and formatting of the source do not show. Files are written
+  // by their name alone, without folders, so that the same scene gives the same provenance wherever it lies.
   std::string resolved(const std::vector<std::string>& blocks = {}) const;
+  // The same for a scene that is to be read from `folder`: files are written relative to it.
+  std::string resolved_for(const std::filesystem::path& folder, const std::vector<std::string>& blocks = {}) const;
   // Files that the scene names (Node::file), for provenance, in order of reading.
   std::vector<std::filesystem::path> files() const;
 
