@@ -13,7 +13,8 @@ double solids_volume(const std::vector<double>& radius) {
   return sum;
 }
 
-double mass_centre(const Vec3Array& position, const std::vector<double>& radius, const std::vector<double>& weight) {
+double mass_centre(const Vec3Array& position, const std::vector<double>& radius,
+                   const std::vector<double>& weight) {
   double total = 0, moment = 0;
   for (std::size_t i = 0; i < weight.size() && i < position.size(); ++i) {
     total += weight[i];
@@ -39,8 +40,8 @@ double height_below_which(double share, const Vec3Array& position, const std::ve
   if (share <= 0) return low;
   if (share >= 1) return high;
   const double target = share * solids_volume(radius);
-  // Newton's method on the volume below z, which rises with z, kept inside a shrinking bracket; a step that leaves the
-  // bracket or meets a plane without solids is replaced by bisection.
+  // Newton's method on the volume below z, which rises with z, kept inside a shrinking bracket; a step that
+  // leaves the bracket or meets a plane without solids is replaced by bisection.
   double z = low + share * (high - low);
   for (int iteration = 0; iteration < 200; ++iteration) {
     double volume = -target, area = 0;
@@ -71,15 +72,9 @@ double protruding_fraction(double height, const Vec3Array& position, const std::
 
 std::vector<double> slice_volumes(const std::vector<double>& edges, const Vec3Array& position,
                                   const std::vector<double>& radius) {
-  const std::size_t slices = edges.size() < 2 ? 0 : edges.size() - 1;
-  std::vector<double> volume(slices, 0.0);
-  for (std::size_t i = 0; slices > 0 && i < position.size(); ++i) {
-    const double z = position[i].z(), a = radius[i];
-    // From the slice that holds the sphere's lowest point upwards.
-    const auto first = std::upper_bound(edges.begin() + 1, edges.end() - 1, z - a);
-    for (std::size_t s = static_cast<std::size_t>(first - edges.begin()) - 1; s < slices && edges[s] < z + a; ++s)
-      volume[s] += sphere_slice_volume(a, z, edges[s], edges[s + 1]);
-  }
+  std::vector<double> volume(edges.size() < 2 ? 0 : edges.size() - 1, 0.0);
+  for (std::size_t i = 0; i < position.size(); ++i)
+    for_each_slice(edges, radius[i], position[i].z(), [&](std::size_t s, double part) { volume[s] += part; });
   return volume;
 }
 
@@ -89,17 +84,21 @@ std::vector<double> equal_slices(double height, int slices) {
   return edges;
 }
 
-double top_envelope(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius, double column) {
-  const long nx = std::max(1L, std::lround(cell.width_x / column)), ny = std::max(1L, std::lround(cell.width_y / column));
+double top_envelope(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
+                    double column) {
+  const long nx = std::max(1L, std::lround(cell.width_x / column)),
+             ny = std::max(1L, std::lround(cell.width_y / column));
   const double dx = cell.width_x / static_cast<double>(nx), dy = cell.width_y / static_cast<double>(ny);
   std::vector<double> top(static_cast<std::size_t>(nx * ny), 0.0);
   const auto wrapped = [](long k, long n) { return ((k % n) + n) % n; };
   for (std::size_t i = 0; i < position.size(); ++i) {
     const double a = radius[i];
     const Vec3 p = cell.wrap(position[i]);
-    for (long kx = std::lround(std::floor((p.x() - a) / dx)); (static_cast<double>(kx) + 0.5) * dx < p.x() + a; ++kx) {
+    for (long kx = std::lround(std::floor((p.x() - a) / dx));
+         (static_cast<double>(kx) + 0.5) * dx < p.x() + a; ++kx) {
       const double x = (static_cast<double>(kx) + 0.5) * dx - p.x();
-      for (long ky = std::lround(std::floor((p.y() - a) / dy)); (static_cast<double>(ky) + 0.5) * dy < p.y() + a; ++ky) {
+      for (long ky = std::lround(std::floor((p.y() - a) / dy));
+           (static_cast<double>(ky) + 0.5) * dy < p.y() + a; ++ky) {
         const double y = (static_cast<double>(ky) + 0.5) * dy - p.y();
         const double rest = a * a - x * x - y * y;
         if (rest < 0) continue;
@@ -113,7 +112,8 @@ double top_envelope(const Cell& cell, const Vec3Array& position, const std::vect
   return sum / static_cast<double>(top.size());
 }
 
-NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height, int slices) {
+NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height,
+                                  int slices) {
   const auto count = static_cast<std::size_t>(std::max(1, slices));
   const auto slice_of = [&](double z) {
     const double s = std::floor(z / height * static_cast<double>(count));
@@ -152,7 +152,8 @@ NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<d
   }
   for (const Line& line : lines)
     if (line.n >= 3) result.degrees_of_freedom += line.n - 2;
-  if (result.degrees_of_freedom > 0) result.rms = std::sqrt(sum / static_cast<double>(result.degrees_of_freedom));
+  if (result.degrees_of_freedom > 0)
+    result.rms = std::sqrt(sum / static_cast<double>(result.degrees_of_freedom));
   return result;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
-// What a layer of spheres measures as a whole: solid volume, mass centre, heights below which a share of the solids
-// lies, solids in horizontal slices, what sticks out of the surface, the motion that is left over when the mean motion
-// at each height is taken away. Exact for spheres, O(N) or O(N log N), and the same bits at any thread count.
-// Radii and positions are arrays of one length, one entry a particle; heights in um above the substrate.
+// What a layer of spheres measures as a whole: solid volume, mass centre, heights below which a share of the
+// solids lies, solids in horizontal slices, what sticks out of the surface, the motion that is left over when
+// the mean motion at each height is taken away. Exact for spheres, O(N) or O(N log N), and the same bits at
+// any thread count. Radii and positions are arrays of one length, one entry a particle; heights in um above
+// the substrate.
 #include <vector>
 
 #include "base/vec.h"
@@ -13,40 +14,44 @@ namespace pigment {
 // um^3.
 double solids_volume(const std::vector<double>& radius);
 
-// Mean height weighted by `weight` (mass where there is one), um; by sphere volume where weight is empty or sums to 0.
-// 0 without particles.
-double mass_centre(const Vec3Array& position, const std::vector<double>& radius, const std::vector<double>& weight = {});
+// Mean height weighted by `weight` (mass where there is one), um; by sphere volume where weight is empty or
+// sums to 0. 0 without particles.
+double mass_centre(const Vec3Array& position, const std::vector<double>& radius,
+                   const std::vector<double>& weight = {});
 inline double mass_centre(const Layer& layer) {
   return mass_centre(layer.position, layer.particles.radius, layer.particles.mass);
 }
 
-// The height below which this share (0..1) of the solid volume lies, um: 0.95 gives z95, 0.99 gives z99. To rounding;
-// 0 without particles. share 0 and 1 give the lowest and the highest point of any sphere.
+// The height below which this share (0..1) of the solid volume lies, um: 0.95 gives z95, 0.99 gives z99. To
+// rounding; 0 without particles. share 0 and 1 give the lowest and the highest point of any sphere.
 double height_below_which(double share, const Vec3Array& position, const std::vector<double>& radius);
 
 // Share of the solid volume above z = height (the free surface): the protruding volume fraction.
 double protruding_fraction(double height, const Vec3Array& position, const std::vector<double>& radius);
 
-// Solid volume between successive planes, um^3, size edges.size() - 1; edges rise. Spheres cut by a plane are shared
-// exactly, so the sum is the solid volume between the outermost planes.
+// Solid volume between successive planes, um^3, size edges.size() - 1; edges rise. Spheres cut by a plane are
+// shared exactly, so the sum is the solid volume between the outermost planes.
 std::vector<double> slice_volumes(const std::vector<double>& edges, const Vec3Array& position,
                                   const std::vector<double>& radius);
 
 // slices + 1 equally spaced planes from 0 to height.
 std::vector<double> equal_slices(double height, int slices);
 
-// Mean over vertical lines on a square grid of about `column` um (a whole number in each width) of the highest point at
-// which the line meets a sphere, um; a line that meets none counts as 0, the substrate.
-double top_envelope(const Cell&, const Vec3Array& position, const std::vector<double>& radius, double column = 0.25);
+// Mean over vertical lines on a square grid of about `column` um (a whole number in each width) of the
+// highest point at which the line meets a sphere, um; a line that meets none counts as 0, the substrate.
+double top_envelope(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
+                    double column = 0.25);
 
-// Non-affine vertical motion: root mean square of value - (its straight line in z within each of `slices` equal slices of
-// [0, height]). `value` is one number a particle, a velocity or a displacement; the result has its unit. The straight
-// line, not only the mean, since a layer that shrinks evenly has a velocity that grows with z. Divided by the degrees of
-// freedom left. Empty where no slice holds more particles than its line takes (three or more): nothing to judge.
+// Non-affine vertical motion: root mean square of value - (its straight line in z within each of `slices`
+// equal slices of [0, height]). `value` is one number a particle, a velocity or a displacement; the result
+// has its unit. The straight line, not only the mean, since a layer that shrinks evenly has a velocity that
+// grows with z. Divided by the degrees of freedom left. Empty where no slice holds more particles than its
+// line takes (three or more): nothing to judge.
 struct NonAffineMotion {
   double rms = 0;
   long degrees_of_freedom = 0;  // 0: too few particles to judge, rms says nothing
 };
-NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height, int slices);
+NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height,
+                                  int slices);
 
 }  // namespace pigment

@@ -1,0 +1,184 @@
+#include "analysis/solids_profile.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "model/layer_measures.h"
+#include "model/sphere_slice.h"
+
+namespace pigment::analysis {
+
+namespace {
+
+double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
+
+// What fills `space` um^3: solids, and liquid in the rest (overlapping spheres can leave no room for it).
+struct Filling {
+  double solid_volume, solid_mass, space, liquid_density;
+  double mass() const { return solid_mass + std::max(0.0, space - solid_volume) * liquid_density; }
+};
+
+std::vector<double> turned_over(const std::vector<double>& edges) {
+  std::vector<double> turned(edges.rbegin(), edges.rend());
+  for (double& z : turned) z = edges.back() - z;
+  return turned;
+}
+
+}  // namespace
+
+double dense_thickness(const std::vector<double>& edges, const std::vector<double>& volume_fraction,
+                       double threshold, double wall_layer) {
+  const std::size_t slices = volume_fraction.size();
+  std::size_t s = 0;
+  while (s < slices && volume_fraction[s] < threshold) ++s;
+  if (s == slices || edges[s] - edges[0] > wall_layer) return 0;
+  while (s + 1 < slices && volume_fraction[s + 1] >= threshold) ++s;
+  if (s + 1 == slices) return edges.back() - edges.front();
+  const double middle = 0.5 * (edges[s] + edges[s + 1]), next = 0.5 * (edges[s + 1] + edges[s + 2]);
+  const double fall = (volume_fraction[s] - threshold) / (volume_fraction[s] - volume_fraction[s + 1]);
+  return middle + fall * (next - middle) - edges[0];
+}
+
+SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const Parameters& parameters) {
+  const auto slices = static_cast<std::size_t>(parameters.slices);
+  const std::size_t classes = parameters.size_class_count();
+  const double area = frame.cell.area(), height = frame.cell.height, liquid_density = solids.liquid_density;
+  SolidsProfile p;
+  p.time = frame.time;
+  p.thickness = height;
+  p.edges = equal_slices(height, parameters.slices);
+
+  // Volume, mass and number of each class in each slice.
+  std::vector<std::vector<double>> volume(classes, std::vector<double>(slices, 0.0)), mass = volume,
+                                                                                      number = volume;
+  std::vector<double> class_number(classes, 0.0);
+  double solid_mass = 0, solid_volume = 0;
+  for (std::size_t i = 0; i < frame.position.size(); ++i) {
+    const double a = solids.radius[i], z = frame.position[i].z(), sphere = Particles::sphere_volume(a);
+    const std::size_t c = parameters.size_class(2 * a);
+    for_each_slice(p.edges, a, z, [&](std::size_t s, double part) {
+      volume[c][s] += part;
+      mass[c][s] += part / sphere * solids.mass[i];
+    });
+    if (z <= height) {
+      number[c][std::min(slices - 1, static_cast<std::size_t>(z / height * static_cast<double>(slices)))] +=
+          1;
+      class_number[c] += 1;
+    }
+    solid_mass += solids.mass[i];
+    solid_volume += sphere;
+  }
+
+  p.size_classes.resize(classes);
+  for (SizeClassProfile& c : p.size_classes)
+    c.volume_fraction = c.mass_fraction = c.solids_fraction = c.number_fraction = c.share =
+        std::vector<double>(slices);
+  double volume_below = 0, mass_below = 0;
+  for (std::size_t s = 0; s < slices; ++s) {
+    const double space = area * (p.edges[s + 1] - p.edges[s]);
+    double v = 0, m = 0, n = 0;
+    for (std::size_t c = 0; c < classes; ++c) {
+      v += volume[c][s];
+      m += mass[c][s];
+      n += number[c][s];
+    }
+    const Filling slice{v, m, space, liquid_density};
+    volume_below += v;
+    mass_below += m;
+    p.volume_fraction.push_back(ratio(v, space));
+    p.mass_fraction.push_back(ratio(m, slice.mass()));
+    p.cumulative_share.push_back(ratio(volume_below, solid_volume));
+    const Filling below{volume_below, mass_below, area * p.edges[s + 1], liquid_density};
+    p.cumulative_mass_fraction.push_back(ratio(mass_below, below.mass()));
+    for (std::size_t c = 0; c < classes; ++c) {
+      SizeClassProfile& of = p.size_classes[c];
+      of.volume_fraction[s] = ratio(volume[c][s], space);
+      of.mass_fraction[s] = ratio(mass[c][s], slice.mass());
+      of.solids_fraction[s] = ratio(volume[c][s], v);
+      of.number_fraction[s] = ratio(number[c][s], n);
+      of.share[s] = ratio(number[c][s], class_number[c]);
+    }
+  }
+  for (std::size_t c = 0; c < classes; ++c) p.size_classes[c].number = std::move(number[c]);
+
+  p.mean_volume_fraction = ratio(solid_volume, area * height);
+  p.mean_mass_fraction =
+      ratio(solid_mass, Filling{solid_volume, solid_mass, area * height, liquid_density}.mass());
+  p.mass_centre = mass_centre(frame.position, solids.radius, solids.mass);
+  p.z95 = height_below_which(0.95, frame.position, solids.radius);
+  p.z99 = height_below_which(0.99, frame.position, solids.radius);
+  p.top_envelope = top_envelope(frame.cell, frame.position, solids.radius, parameters.envelope_column);
+  p.protruding_fraction = protruding_fraction(height, frame.position, solids.radius);
+  p.cake_thickness =
+      dense_thickness(p.edges, p.volume_fraction, parameters.cake_solids, parameters.wall_layer);
+  const std::vector<double> from_top(p.volume_fraction.rbegin(), p.volume_fraction.rend());
+  p.skin_thickness =
+      dense_thickness(turned_over(p.edges), from_top, parameters.cake_solids, parameters.wall_layer);
+  return p;
+}
+
+namespace {
+
+NonAffineInterval non_affine_interval(const Snapshot& before, const Snapshot& after, int slices) {
+  NonAffineInterval interval;
+  interval.time = after.time;
+  const double dt = after.time - before.time;
+  if (!(dt > 0)) return interval;
+  std::vector<double> rise(before.position.size());
+  for (std::size_t i = 0; i < rise.size(); ++i)
+    rise[i] = (after.position[i].z() - before.position[i].z()) / dt;
+  const NonAffineMotion motion = non_affine_motion(before.position, rise, before.cell.height, slices);
+  interval.velocity = motion.rms;
+  interval.shrinkage_rate = (before.cell.height - after.cell.height) / dt;
+  interval.judged = motion.degrees_of_freedom > 0 && interval.shrinkage_rate != 0;
+  return interval;
+}
+
+}  // namespace
+
+SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, const Parameters& parameters) {
+  // A frame is read once: each interval keeps the frame before it, profiles are made with the later one.
+  struct Measured {
+    SolidsProfile profile;
+    NonAffineInterval interval;
+  };
+  SolidsDevelopment result;
+  if (frames.count == 0) return result;
+  Frames kept = frames;
+  Snapshot first;
+  kept.read = [&](std::size_t k) {
+    Snapshot frame = frames.read(k);
+    if (k == 0) first = frame;
+    return frame;
+  };
+  std::vector<std::size_t> all(frames.count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Measured> measured;
+  if (frames.count > 1)
+    measured = measure_intervals(kept, all, [&](const Snapshot& before, const Snapshot& after) {
+      return Measured{profile_solids(after, solids, parameters),
+                      non_affine_interval(before, after, parameters.slices)};
+    });
+  else
+    first = frames.read(0);
+  result.profiles.push_back(profile_solids(first, solids, parameters));
+  for (Measured& m : measured) {
+    const SolidsProfile& before = result.profiles.back();
+    const double dt = m.profile.time - before.time;
+    if (dt > 0)
+      m.interval.mass_centre_rate =
+          m.profile.thickness *
+          (m.profile.mass_centre / m.profile.thickness - before.mass_centre / before.thickness) / dt;
+    result.profiles.push_back(std::move(m.profile));
+    result.intervals.push_back(m.interval);
+  }
+  for (std::size_t k = result.intervals.size(); k-- > 0;) {
+    const NonAffineInterval& interval = result.intervals[k];
+    if (!interval.judged) continue;
+    if (interval.velocity >= parameters.immobilisation_ratio * std::abs(interval.shrinkage_rate)) break;
+    result.immobilisation_time = result.profiles[k].time;
+  }
+  return result;
+}
+
+}  // namespace pigment::analysis

@@ -1,0 +1,75 @@
+#pragma once
+// Where the solids of a layer are: profiles over its thickness, by size class, and what follows from them
+// [sand2010, 3.5.1].
+#include <optional>
+#include <vector>
+
+#include "analysis/frames.h"
+#include "analysis/parameters.h"
+
+namespace pigment::analysis {
+
+// One entry a slice. A particle counts in the slice that holds its centre (those above the surface in none);
+// volumes are shared exactly.
+struct SizeClassProfile {
+  std::vector<double> volume_fraction;  // the class's volume over the slice's volume
+  std::vector<double> mass_fraction;    // the class's mass over the slice's mass, liquid included
+  std::vector<double>
+      solids_fraction;  // the class's volume over the slice's solid volume; 0 in a slice without solids
+  std::vector<double> number;           // particles
+  std::vector<double> number_fraction;  // of the slice's particles; 0 in a slice without particles
+  std::vector<double> share;  // of the class's particles in the layer; sums to 1 (0 for an empty class)
+};
+
+struct SolidsProfile {
+  double time = 0;                       // ms
+  std::vector<double> edges;             // um, slices + 1, from the substrate to the surface
+  std::vector<double> volume_fraction;   // slices
+  std::vector<double> mass_fraction;     // slices; the liquid fills what the solids leave
+  std::vector<double> cumulative_share;  // slices: share of all solid volume below the slice's upper edge
+  std::vector<double>
+      cumulative_mass_fraction;  // slices: mass fraction of everything below the slice's upper edge
+  std::vector<SizeClassProfile> size_classes;
+  double thickness = 0;             // um, substrate to surface
+  double mean_volume_fraction = 0;  // all solids over the layer's volume
+  double mean_mass_fraction = 0;    // all solids, liquid: the layer's volume less the solids
+  double mass_centre = 0, z95 = 0, z99 = 0, top_envelope = 0;  // um
+  double protruding_fraction = 0;                              // share of the solid volume above the surface
+  double cake_thickness = 0, skin_thickness = 0;               // um, see dense_thickness
+};
+
+// Vertical motion between two frames that is not the layer's own even shrinking.
+struct NonAffineInterval {
+  double time = 0;      // ms, of the later frame
+  double velocity = 0;  // um/ms, root mean square over particles (model/layer_measures.h: non_affine_motion)
+  double shrinkage_rate = 0;  // um/ms, -dH/dt
+  double mass_centre_rate =
+      0;  // um/ms, thickness times d(mass centre / thickness)/dt: 0 while the layer shrinks evenly
+  bool judged = false;  // the thickness changed, and there were particles enough
+};
+
+struct SolidsDevelopment {
+  std::vector<SolidsProfile> profiles;
+  std::vector<NonAffineInterval> intervals;  // one fewer
+  // Time of the frame from which on every judged interval stays below the ratio, ms; nothing where the last
+  // one does not.
+  std::optional<double> immobilisation_time;
+};
+
+struct Solids {
+  std::vector<double> radius;    // um
+  std::vector<double> mass;      // engine units, all positive
+  double liquid_density = 1e-3;  // engine units
+};
+
+SolidsProfile profile_solids(const Snapshot&, const Solids&, const Parameters&);
+SolidsDevelopment follow_solids(const Frames&, const Solids&, const Parameters&);
+
+// Height above the first edge up to which slices hold at least `threshold`: a run of such slices that begins
+// within `wall_layer` of the first edge and ends where the profile, linear between the middles of slices,
+// falls through the threshold. 0 where no such run begins; the whole thickness where it does not end. Cake
+// thickness from the substrate up; skin thickness with profile and edges turned over.
+double dense_thickness(const std::vector<double>& edges, const std::vector<double>& volume_fraction,
+                       double threshold, double wall_layer);
+
+}  // namespace pigment::analysis
