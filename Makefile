@@ -1,0 +1,83 @@
+# pigment: build it, test it, run its studies. `make help` says what there is.
+SHELL := /bin/bash
+.SUFFIXES:
+MAKEFLAGS += --no-builtin-rules
+.DEFAULT_GOAL := all
+
+BUILD ?= build
+PREFIX ?= /usr/local
+TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
+# make -j N bounds the compilation and the tests too; without -j they take every core.
+JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
+STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
+
+.PHONY: all build test bench studies install clean format help dependencies configure FORCE
+
+all: study-drying
+	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
+
+help:
+	@echo 'make                 install what is missing, build, run the main study (workflows/drying)'
+	@echo 'make build           install what is missing, build the tools into $(BUILD)/bin'
+	@echo 'make test            build, run all tests'
+	@echo 'make bench           build, run the benchmarks'
+	@echo 'make study-NAME      run one study; SIZE=quick or SIZE=full, -j N, LAUNCH="srun -n1"'
+	@echo '                     studies: $(STUDIES)'
+	@echo 'make studies         run all of them'
+	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
+	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
+	@echo 'make format          clang-format over lib, tools and tests'
+	@echo 'make clean           remove $(BUILD), results of studies included'
+
+# ---- build
+dependencies:
+	@cmake/install-dependencies.sh
+
+# Configures where it has not been done; then the build does so by itself when a CMake file changes. Continuous
+# integration (CI set) turns warnings into errors.
+CONFIGURE = cmake -S . -B $(BUILD) $(if $(CI),-DPIGMENT_WERROR=ON) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-G Ninja)
+configure: dependencies
+	$(if $(CI)$(if $(wildcard $(BUILD)/build.ninja $(BUILD)/Makefile),,new),$(CONFIGURE))
+
+build: configure
+	cmake --build $(BUILD) --parallel $(JOBS)
+
+test: configure
+	cmake --build $(BUILD) --parallel $(JOBS) --target all tests
+	ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
+
+bench: configure
+	cmake --build $(BUILD) --parallel $(JOBS) --target all benchmarks
+	for program in $(BUILD)/bench/bench_*; do "$$program" || exit 1; done
+
+install: build
+	DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)'
+
+# ---- studies
+# Results live in $(BUILD)/studies/STUDY/CASE; workflows/rules.mk says how each file is made.
+STUDY_MAKE = $(MAKE) --no-print-directory -C workflows/$(1) BUILD='$(abspath $(BUILD))'
+
+studies: $(STUDIES:%=study-%)
+.PHONY: $(STUDIES:%=study-%)
+$(STUDIES:%=study-%): study-%: build
+	$(call STUDY_MAKE,$*)
+
+# Files of a study as goals: one call for all that belong to it, so that -j never runs a stage twice.
+WANTED := $(patsubst $(TOP)/%,%,$(filter $(BUILD)/studies/% $(abspath $(BUILD))/studies/%,$(MAKECMDGOALS)))
+study_of = $(word 2,$(subst /, ,$(patsubst $(BUILD)/%,%,$(1))))
+define study_files
+.PHONY: files-of-$(1)
+files-of-$(1): build
+	$$(call STUDY_MAKE,$(1)) $(abspath $(foreach f,$(WANTED),$(if $(filter $(1),$(call study_of,$f)),$f)))
+endef
+$(foreach s,$(sort $(foreach f,$(WANTED),$(call study_of,$f))),$(eval $(call study_files,$s)))
+$(foreach f,$(filter $(BUILD)/studies/% $(abspath $(BUILD))/studies/%,$(MAKECMDGOALS)),\
+  $(eval $f: files-of-$(call study_of,$(patsubst $(TOP)/%,%,$f)) FORCE ; @:))
+
+# ---- the source tree
+format:
+	@command -v clang-format > /dev/null || { echo 'make format needs clang-format: apt install clang-format' >&2; exit 1; }
+	clang-format -i $$(git ls-files 'lib/*.h' 'lib/*.cpp' 'tools/*.cpp' 'tests/*.h' 'tests/*.cpp')
+
+clean:
+	rm -rf $(BUILD)
