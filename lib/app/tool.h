@@ -46,8 +46,9 @@ class CommandLine {
 int run_tool(const std::string& name, int argc, char** argv, const std::function<void(CommandLine&)>& declare,
              const std::function<void(CommandLine&)>& body);
 
-// SIGINT or SIGTERM arrived: the signal number, else 0. A tool with a checkpoint polls it, saves, and throws Interrupted;
-// for the others the default action applies (nothing partial stands under a final name anyway).
+// A signal (SIGINT, SIGTERM) ends a tool at once with status 128 + n: nothing partial stands under a final name. A tool
+// with a checkpoint calls handle_signals() instead; then stop_requested() is the signal's number (0: none came), which it
+// polls, saves, and throws Interrupted.
 void handle_signals();
 int stop_requested();
 struct Interrupted {
