@@ -41,7 +41,7 @@ struct ResultFile {
   std::filesystem::path file;                              // where it was read from, for messages
 };
 
-// Writes beside the final name and renames when whole; throws OutputError. A NaN or infinity is refused (an assert: the
+// Writes beside the final name and renames when whole; throws OutputError. A NaN or infinity is a logic_error (the
 // caller answers for it), so none is ever written as a result.
 void write_result(const std::filesystem::path&, const ResultFile&);
 // Reads every dataset below /KIND (numeric ones), converting units of the right dimension given by `dimensions`

@@ -1,0 +1,26 @@
+#pragma once
+// Shared by h5_input.cpp and h5_output.cpp only: HDF5's own header must not reach further.
+#include <hdf5.h>
+
+#include <string>
+
+#include "io/h5.h"
+
+namespace pigment::io::h5 {
+
+// HDF5 prints a stack of its own to stderr unless told not to.
+inline void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+// The innermost reason on HDF5's error stack; with a hint where another program holds the lock.
+std::string reason();
+
+inline Handle property_list(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
+inline Handle simple_space(const Extent& shape) {
+  if (shape.empty()) return {H5Screate(H5S_SCALAR), H5Sclose};
+  const std::vector<hsize_t> dims(shape.begin(), shape.end());
+  return {H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose};
+}
+Handle text_type(std::size_t length);  // fixed length, or H5T_VARIABLE
+Type type_of(hid_t datatype);
+
+}  // namespace pigment::io::h5
