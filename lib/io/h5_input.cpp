@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <new>
+#include <fstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "io/h5_detail.h"
@@ -30,6 +30,42 @@ Extent extent_of(hid_t space) {
   std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space, dims.data(), nullptr);
   return {dims.begin(), dims.end()};
+}
+
+// Text of variable length lies in "global heap collections", the one part of these files without a checksum, and HDF5
+// 1.10 trusts the lengths in them: a damaged one makes it write past its buffer. So the collections near the beginning,
+// where ours are, are walked through before HDF5 reads them. HDF5 file format specification, section III.E.
+bool heaps_are_sound(const std::filesystem::path& name) {
+  std::ifstream file(name, std::ios::binary);
+  std::string bytes(1 << 20, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  const auto number = [&](std::size_t at, std::size_t width) {  // little-endian
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < width; ++i)
+      value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+    return value;
+  };
+  constexpr std::string_view signature("GCOL\1\0\0\0", 8);
+  constexpr std::size_t header = 16;
+  for (std::size_t begin = bytes.find(signature); begin != std::string::npos; begin = bytes.find(signature, begin + 8)) {
+    if (begin + header > bytes.size()) break;
+    const std::uint64_t size = number(begin + 8, 8);
+    if (size < header || size > bytes.size() - begin) return size > bytes.size() && bytes.size() == 1 << 20;
+    std::size_t at = begin + header;
+    const std::size_t end = begin + size;
+    while (at + header <= end) {
+      const std::uint64_t index = number(at, 2), length = number(at + 8, 8);
+      if (index == 0) {  // what is left free, its own header included
+        if (length != end - at) return false;
+        at = end;
+      } else {
+        if (length > end - at - header) return false;
+        at += header + (length + 7) / 8 * 8;
+      }
+    }
+  }
+  return true;
 }
 
 // Reads text of either kind of length through `read(memory type, buffer)`; `stored` is its type in the file.
@@ -121,6 +157,7 @@ InputFile::InputFile(std::filesystem::path name) : name_(std::move(name)) {
     throw FileError(fmt::format("{}: is a folder, expected an HDF5 file", name_.string()));
   const Handle access = property_list(H5P_FILE_ACCESS);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  if (!heaps_are_sound(name_)) throw FileError(fmt::format("{}: is damaged: its text cannot be read", name_.string()));
   file_ = Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (file_) return;
   const std::string why = reason();
