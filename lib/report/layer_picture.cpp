@@ -1,0 +1,237 @@
+#include "report/layer_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/stroke_font.h"
+#include "report/ticks.h"
+
+namespace pigment::report {
+namespace {
+
+const Colour ink = from_srgb(38, 44, 54), soft_ink = from_srgb(92, 100, 112);
+
+double fraction_of_scale(const ParticleColours& c, double value) {
+  if (!(c.high > c.low)) return 0.5;
+  if (c.logarithmic) return std::log(std::max(value, 1e-300) / c.low) / std::log(c.high / c.low);
+  return (value - c.low) / (c.high - c.low);
+}
+
+Camera camera_for(const PictureSettings& s, const Box& shown, int height) {
+  Camera camera = s.view == View::Side ? Camera::side() : s.view == View::Top ? Camera::top() : Camera::oblique(s.azimuth, s.elevation);
+  if (s.view == View::Oblique && s.perspective) camera.eye_distance = 3.2 * (shown.upper - shown.lower).norm();
+  camera.frame(shown, s.width, height);
+  return camera;
+}
+
+std::vector<CuttingPlane> planes_of(const std::vector<AxisCut>& cuts, const Camera& camera) {
+  std::vector<CuttingPlane> planes;
+  for (const AxisCut& cut : cuts) {
+    Vec3 out = Vec3::Zero();
+    // Out of the kept part: towards the viewer unless the cut says so; a plane seen edge-on keeps what is below.
+    double sign = cut.keep == AxisCut::Keep::Above ? -1 : 1;
+    if (cut.keep == AxisCut::Keep::AwayFromViewer && camera.forward[cut.axis] > 1e-9) sign = -1;
+    out[cut.axis] = sign;
+    planes.push_back({out, sign * cut.position});
+  }
+  return planes;
+}
+
+// Wrapped spheres: each centre inside the cell, and for sawn blocks also every image that reaches into it.
+std::vector<Sphere> spheres_of(const Layer& layer, const ParticleColours& colours, const PictureSettings& s, int repeat_x, int repeat_y) {
+  std::vector<Sphere> spheres;
+  const Cell& cell = layer.cell;
+  for (std::size_t i = 0; i < layer.position.size(); ++i) {
+    const Vec3 p = cell.wrap(layer.position[i]);
+    const double a = layer.particles.radius[i];
+    const int extra = s.sawn ? 1 : 0;
+    for (int ix = -extra; ix < repeat_x + extra; ++ix)
+      for (int iy = -extra; iy < repeat_y + extra; ++iy) {
+        const Vec3 q = p + Vec3(ix * cell.width_x, iy * cell.width_y, 0);
+        if (q.x() + a < 0 || q.y() + a < 0 || q.x() - a > repeat_x * cell.width_x || q.y() - a > repeat_y * cell.width_y) continue;
+        spheres.push_back({q, a, colours.of(i)});
+      }
+  }
+  return spheres;
+}
+
+void draw_scale_bar(Image& image, const Camera& camera, double left, double bottom, double text_height) {
+  const double pixel = camera.width / image.width;
+  const double length = round_below(0.28 * camera.width), pixels = length / pixel;
+  const double y = bottom - 0.35 * text_height;
+  draw_line(image, left, y, left + pixels, y, std::max(2.5, 0.3 * text_height), ink);
+  const std::string text = length >= 1 ? number_text(length) + " µm" : number_text(1000 * length) + " nm";
+  draw_text(image, left, y - 0.9 * text_height, text, text_height, ink);
+}
+
+void draw_colour_bar(Image& image, const ParticleColours& colours, double left, double right, double bottom, double text_height) {
+  if (!colours.categories.empty()) {
+    double x = right;
+    for (std::size_t i = colours.categories.size(); i-- > 0;) {
+      const double width = text_width(colours.categories[i], text_height);
+      draw_text(image, x - width, bottom, colours.categories[i], text_height, ink);
+      draw_line(image, x - width - 1.3 * text_height, bottom - 0.5 * text_height, x - width - 1.3 * text_height, bottom - 0.5 * text_height,
+                1.1 * text_height, categorical(i));
+      x -= width + 3.2 * text_height;
+    }
+    return;
+  }
+  const int x0 = static_cast<int>(left), x1 = static_cast<int>(right);
+  const int y1 = static_cast<int>(bottom - 1.75 * text_height), y0 = static_cast<int>(y1 - 0.85 * text_height);
+  for (int x = x0; x < x1; ++x)
+    for (int y = y0; y < y1; ++y) image.blend(x, y, sequential((x + 0.5 - x0) / (x1 - x0)), 1);
+  const std::string title = colours.unit.empty() ? colours.label : colours.label + " (" + colours.unit + ")";
+  draw_text(image, right, y0 - 0.6 * text_height, title, text_height, ink, TextAnchor::End);
+  const int wanted = std::max(2, static_cast<int>((right - left) / (5 * text_height)));
+  const bool log = colours.logarithmic && colours.high > colours.low;
+  Ticks ticks = log ? logarithmic_ticks(colours.low, colours.high) : linear_ticks(colours.low, colours.high, wanted);
+  if (log) {  // few round numbers fit a short range: its ends say the rest
+    const double room = 0.12 * std::log(colours.high / colours.low);
+    std::erase_if(ticks.values, [&](double v) { return std::log(v / colours.low) < room || std::log(colours.high / v) < room; });
+    ticks.values.insert(ticks.values.begin(), colours.low);
+    ticks.values.push_back(colours.high);
+    ticks.labels.clear();
+    for (const double v : ticks.values) ticks.labels.push_back(number_text(v, 2));
+  }
+  double last_end = -1e9;
+  for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+    const double x = x0 + (x1 - x0) * fraction_of_scale(colours, ticks.values[i]);
+    const double half = 0.5 * text_width(ticks.labels[i], 0.9 * text_height);
+    draw_line(image, x, y1, x, y1 + 0.3 * text_height, 1.2, soft_ink);
+    if (x - half < last_end + 0.5 * text_height || x + half > image.width) continue;
+    draw_text(image, x, bottom, ticks.labels[i], 0.9 * text_height, soft_ink, TextAnchor::Middle);
+    last_end = x + half;
+  }
+}
+
+// The free surface where the camera looks along it: a thin line, spheres through it stay in front.
+void draw_surface_line(Image& image, const Camera& camera, const Box& liquid, int height) {
+  const auto [x0, y0] = camera.project({liquid.lower.x(), liquid.lower.y(), liquid.upper.z()}, image.width, height);
+  const auto [x1, y1] = camera.project({liquid.upper.x(), liquid.lower.y(), liquid.upper.z()}, image.width, height);
+  draw_line(image, x0, y0, x1, y1, 1.4, from_srgb(70, 130, 190), 0.75);
+}
+
+}  // namespace
+
+Colour ParticleColours::of(std::size_t particle) const {
+  if (!categories.empty()) return categorical(static_cast<std::size_t>(std::max(0.0, value[particle])));
+  return sequential(fraction_of_scale(*this, value[particle]));
+}
+
+ParticleColours colours_by_size(const Particles& particles) {
+  ParticleColours c{"diameter", "µm", {}, 0, 0, true, {}};
+  for (const double a : particles.radius) c.value.push_back(2 * a);
+  const auto [low, high] = std::minmax_element(c.value.begin(), c.value.end());
+  if (low != c.value.end()) c.low = *low, c.high = *high;
+  return c;
+}
+
+ParticleColours colours_by_species(const Particles& particles, const std::vector<std::string>& names) {
+  ParticleColours c{"species", "", {}, 0, 1, false, names};
+  for (const int s : particles.species) c.value.push_back(s);
+  c.value.resize(particles.size(), 0);
+  const double most = c.value.empty() ? 0 : *std::max_element(c.value.begin(), c.value.end());
+  for (std::size_t i = c.categories.size(); i <= static_cast<std::size_t>(most); ++i) c.categories.push_back(fmt::format("species {}", i + 1));
+  return c;
+}
+
+ParticleColours colours_by_height(const Layer& layer, double highest) {
+  ParticleColours c{"height", "µm", {}, 0, highest, false, {}};
+  for (const Vec3& p : layer.position) c.value.push_back(p.z());
+  return c;
+}
+
+ParticleColours colours_by_speed(const std::string& label, const std::vector<double>& speed) {
+  ParticleColours c{label, "µm/s", {}, 0, 0, false, {}};
+  for (const double v : speed) c.value.push_back(1000 * v);
+  if (c.value.empty()) return c;
+  std::vector<double> sorted = c.value;
+  std::sort(sorted.begin(), sorted.end());
+  const auto percentile = [&](double p) { return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1))]; };
+  c.low = percentile(0.02), c.high = percentile(0.98);
+  return c;
+}
+
+ParticleColours colours_by_cluster(const std::vector<double>& size) {
+  ParticleColours c{"particles in the cluster", "", size, 1, 2, true, {}};
+  for (const double s : size) c.high = std::max(c.high, s);
+  return c;
+}
+
+Image draw_layer(const Layer& layer, const ParticleColours& colours, const PictureSettings& s) {
+  const Cell& cell = layer.cell;
+  const int repeat_x = std::max(1, s.repeat), repeat_y = s.view == View::Side ? 1 : repeat_x;
+  const double wide = repeat_x * cell.width_x, deep = repeat_y * cell.width_y;
+  double top = cell.height;
+  for (std::size_t i = 0; i < layer.position.size(); ++i) top = std::max(top, layer.position[i].z() + layer.particles.radius[i]);
+  const double shown_top = s.framed_height.value_or(top);
+  const double slab = std::max(0.035 * shown_top, 0.01 * wide);
+  const double text_height = std::clamp(0.017 * std::min(1.4 * s.width, 1.0 * s.height + 200), 9.0, 26.0);
+  const bool footer = s.scale_bar || s.colour_bar;
+  const int footer_height = footer ? static_cast<int>(5.4 * text_height) : 0;
+  const int header_height = s.caption.empty() ? 0 : static_cast<int>(2.6 * text_height);
+  const int body_height = std::max(16, s.height - footer_height - header_height);
+
+  SphereScene scene;
+  scene.spheres = spheres_of(layer, colours, s, repeat_x, repeat_y);
+  // Whole spheres stand out of the cell's faces: substrate and liquid reach as far as they do.
+  Box around{{0, 0, 0}, {wide, deep, cell.height}};
+  if (!s.sawn)
+    for (const Sphere& sphere : scene.spheres)
+      for (int k = 0; k < 2; ++k) {
+        around.lower[k] = std::min(around.lower[k], sphere.centre[k] - sphere.radius);
+        around.upper[k] = std::max(around.upper[k], sphere.centre[k] + sphere.radius);
+      }
+  Box shown = around;
+  shown.lower.z() = s.substrate ? -slab : 0.0;
+  shown.upper.z() = shown_top;
+  const Camera camera = camera_for(s, shown, body_height);
+  scene.cuts = planes_of(s.cuts, camera);
+  if (s.sawn) {
+    scene.cuts.push_back({-Vec3::UnitX(), 0});
+    scene.cuts.push_back({Vec3::UnitX(), wide});
+    scene.cuts.push_back({-Vec3::UnitY(), 0});
+    scene.cuts.push_back({Vec3::UnitY(), deep});
+  }
+  if (s.substrate) {
+    scene.substrate.push_back(around);
+    scene.substrate.back().lower.z() = -slab, scene.substrate.back().upper.z() = 0;
+  }
+  if (s.surface) scene.liquid.push_back(around);
+
+  RenderSettings settings;
+  settings.width = s.width, settings.height = body_height, settings.samples = s.samples;
+  const Image body = render(scene, camera, settings);
+  Image image(s.width, s.height, settings.background_bottom);
+  for (int y = 0; y < header_height; ++y)
+    for (int x = 0; x < s.width; ++x) image.blend(x, y, settings.background_top, 1);
+  Image framed = body;
+  if (s.surface && s.view == View::Side) draw_surface_line(framed, camera, scene.liquid.front(), body_height);
+  image.paste(framed, 0, header_height);
+
+  const double margin = 1.6 * text_height, bottom = s.height - 1.3 * text_height;
+  if (!s.caption.empty()) draw_text(image, margin, 1.9 * text_height, s.caption, 1.1 * text_height, ink);
+  if (s.scale_bar && camera.eye_distance <= 0) draw_scale_bar(image, camera, margin, bottom, text_height);
+  if (s.colour_bar) {
+    const double length = std::clamp(0.4 * s.width, 60.0, 26 * text_height);
+    draw_colour_bar(image, colours, s.width - margin - length, s.width - margin, bottom, text_height);
+  }
+  return image;
+}
+
+Image contact_sheet(const std::vector<Image>& pictures, int columns) {
+  if (pictures.empty()) return Image(1, 1);
+  const int gap = 12;
+  const int count = static_cast<int>(pictures.size());
+  columns = std::clamp(columns, 1, count);
+  const int rows = (count + columns - 1) / columns;
+  const int width = pictures.front().width, height = pictures.front().height;
+  Image sheet(columns * width + (columns + 1) * gap, rows * height + (rows + 1) * gap);
+  for (int i = 0; i < count; ++i)
+    sheet.paste(pictures[static_cast<std::size_t>(i)], gap + i % columns * (width + gap), gap + i / columns * (height + gap));
+  return sheet;
+}
+
+}  // namespace pigment::report
