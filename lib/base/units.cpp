@@ -34,6 +34,7 @@ constexpr std::array<DimensionInfo, 22> table{{
     {Dimension::MassFlux, "mass flux", "kg m-2 s-1", 1e-3, "40 g/m2/s"},
     {Dimension::AreaDensity, "mass per area", "kg m-2", 1, "26 g/m2"},
     {Dimension::Concentration, "concentration", "mol m-3", 1, "10 mol/m3"},
+    {Dimension::InverseLength, "inverse length", "m-1", 1e-6, "1 um-1"},
     {Dimension::BrownianConstant, "Brownian constant", "N m-1/2", 1e9, "1e-9 N m-1/2"},
     {Dimension::MassFraction, "mass fraction", "1", 1, "65 wt%"},
     {Dimension::VolumeFraction, "volume fraction", "1", 1, "68 vol%"},

@@ -29,6 +29,7 @@ enum class Dimension {
   MassFlux,          // kg m-2 s-1
   AreaDensity,       // kg m-2 (coat weight)
   Concentration,     // mol m-3
+  InverseLength,     // m-1: a density of lengths
   BrownianConstant,  // N m-1/2, K_Brown of (25)
   MassFraction,      // 1, written "65 wt%"
   VolumeFraction,    // 1, written "68 vol%"
