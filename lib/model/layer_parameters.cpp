@@ -1,25 +1,27 @@
 #include "model/layer_parameters.h"
 
 namespace pigment {
-namespace {
 
-// "65 wt%" or "40 vol%": the unit decides, so the text is read first and converted here.
-void read_solids(config::Node& node, LayerParameters& layer) {
-  const std::string text = node.text("solids");
-  if (text.empty()) return;  // missing: already an error
+SolidsContent read_solids(config::Node& node, const std::string& key) {
+  const std::string text = node.text(key);
+  if (text.empty()) return {};  // missing: already an error
+  // The unit decides, so the text is read first and converted here.
   const ParsedQuantity by_weight = parse_quantity(text, Dimension::MassFraction);
-  const ParsedQuantity by_volume = by_weight.ok ? by_weight : parse_quantity(text, Dimension::VolumeFraction);
-  layer.solids_by_weight = by_weight.ok;
-  if (!by_volume.ok) {
-    node.error("solids", "\"" + text + "\" is not a solids content; write e.g. \"65 wt%\" or \"40 vol%\"");
-  } else if (!(by_volume.si > 0 && by_volume.si < 1)) {
-    node.error("solids", "\"" + text + "\" is not between 0 and 100 %");
-  } else {
-    layer.solids = by_volume.si;
+  const ParsedQuantity solids = by_weight.ok ? by_weight : parse_quantity(text, Dimension::VolumeFraction);
+  if (!solids.ok) {
+    node.error(key, "\"" + text + "\" is not a solids content; write e.g. \"65 wt%\" or \"40 vol%\"");
+    return {};
   }
+  if (!(solids.si > 0 && solids.si < 1)) {
+    node.error(key, "\"" + text + "\" is not between 0 and 100 %");
+    return {};
+  }
+  return {solids.si, by_weight.ok};
 }
 
-}  // namespace
+double SolidsContent::volume_fraction(double dry_density, double liquid_density) const {
+  return by_weight ? volume_fraction_of(fraction, dry_density, liquid_density) : fraction;
+}
 
 LayerParameters read_layer(config::Node node) {
   LayerParameters layer;
@@ -29,7 +31,9 @@ LayerParameters read_layer(config::Node node) {
     node.error("coat_weight", "thickness and coat_weight both fix how much is coated; give one of them");
   if (!node.has("thickness") && !node.has("coat_weight"))
     node.error("thickness", "is missing; give thickness (e.g. \"25 um\") or coat_weight (dry, e.g. \"26 g/m2\")");
-  read_solids(node, layer);
+  const SolidsContent solids = read_solids(node, "solids");
+  layer.solids = solids.fraction;
+  layer.solids_by_weight = solids.by_weight;
   layer.width = node.quantity("width", Dimension::Length, config::positive());
   return layer;
 }

@@ -8,6 +8,14 @@
 
 namespace pigment {
 
+// A solids content by weight or by volume, as the unit says that the scene writes: "65 wt%", "40 vol%".
+struct SolidsContent {
+  double fraction = 0;  // 0: was not read
+  bool by_weight = true;
+  double volume_fraction(double dry_density, double liquid_density) const;
+};
+SolidsContent read_solids(config::Node&, const std::string& key);  // required, between 0 and 100 %
+
 struct LayerParameters {
   // One of the two is there.
   std::optional<double> thickness;    // um, of the wet layer

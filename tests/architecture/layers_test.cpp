@@ -27,7 +27,7 @@ const std::vector<Door> doors = {
     {"suitesparse/", {"solve"}, false},
     {"Random123/", {"base"}, true},
     {"udunits2", {"base"}, true},
-    {"gsl/", {"model", "forces", "packing", "dewatering", "analysis"}, true},
+    {"gsl/", {"model", "forces", "packing", "analysis"}, true},
     {"png", {"report"}, true},
     {"zlib", {"report"}, true},
 };
