@@ -77,6 +77,7 @@ Record& Node::Data::record_entry(const std::string& key) {
 
 void Node::Data::record(const std::string& key, const std::string& text, bool is_file) {
   Record& r = record_entry(key);
+  if (!r.texts.empty()) return;
   r.kind = Record::Kind::Scalar;
   r.texts = {text};
   r.is_file = is_file;
@@ -171,6 +172,7 @@ Tree Node::Data::resolved(const std::filesystem::path* folder) const {
         entry.kind = Tree::Kind::List;
         for (const auto& block : r.blocks) entry.children.push_back(block->resolved(folder));
         break;
+      case Record::Kind::Verbatim: entry = r.verbatim; break;
     }
     out.children.push_back(std::move(entry));
   }

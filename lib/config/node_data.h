@@ -33,13 +33,14 @@ struct Source {
 
 // One value that was read: a scalar, a list of scalars, a block, or a list of blocks.
 struct Record {
-  enum class Kind { Scalar, List, Block, Blocks };
+  enum class Kind { Scalar, List, Block, Blocks, Verbatim };
   std::string key;
   Kind kind = Kind::Scalar;
   std::vector<std::string> texts;
   bool is_file = false;
   bool written = true;  // by the scene; a default block without values is left out of the resolved scene
   std::vector<std::shared_ptr<Node::Data>> blocks;
+  Tree verbatim;
 };
 
 struct Node::Data {
@@ -57,6 +58,7 @@ struct Node::Data {
   int line_of(const std::string& key) const;
   void know(const std::string& key);
   void mark_read(const std::string& key);
+  // The first reading of a key stands: a later reader that looks at the same key does not rewrite it.
   void record(const std::string& key, const std::string& text, bool is_file = false);
   Record& record_entry(const std::string& key);
   void fault(const std::string& key, const std::string& message);

@@ -1,0 +1,68 @@
+#include "scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pigment::scene {
+namespace {
+
+// One line each, for the message that a tool needs a block.
+const std::vector<std::pair<std::string, std::string>> block_examples = {
+    {"layer", "layer: {thickness: 25 um, solids: 65 wt%, width: 5 um}"},
+    {"particles", "particles: [{species: pigment, size: {law: monodisperse, diameter: 1 um}}]"},
+    {"brownian", "brownian: {model: k_brown}"},
+    {"dewatering", "dewatering: {strategy: HLL, duration: 0.5 s, ...}"},
+};
+
+void demand_blocks(config::Node& root, const std::string& stage_name) {
+  for (const std::string& block : stage(stage_name).demands) {
+    if (root.has(block)) continue;
+    const auto example = std::find_if(block_examples.begin(), block_examples.end(),
+                                      [&](const auto& entry) { return entry.first == block; });
+    root.error(block, fmt::format("missing; pigment-{} needs this block, e.g. \"{}\"", stage_name, example->second));
+  }
+}
+
+// Largest diameter of a species as far as the scene alone tells it (not from a table).
+double largest_diameter(const Scene& scene) {
+  double largest = 0;
+  for (const Species& s : scene.species) largest = std::max(largest, s.size.max);
+  return largest;
+}
+
+void check_layer(config::Node& root, const Scene& scene) {
+  if (!scene.layer) return;
+  config::Node layer = root.block("layer");
+  const double diameter = largest_diameter(scene);
+  if (!layer.failed("width") && scene.layer->width < 2 * diameter)
+    layer.error("width", fmt::format("{:.6g} um is under two largest diameters ({:.6g} um each): a particle would meet "
+                                     "its own periodic image; write at least \"{:.6g} um\"",
+                                     scene.layer->width, diameter, 2 * diameter));
+  if (!layer.failed("thickness") && scene.layer->thickness && *scene.layer->thickness < diameter)
+    layer.error("thickness", fmt::format("{:.6g} um is thinner than the largest particle ({:.6g} um)",
+                                         *scene.layer->thickness, diameter));
+}
+
+}  // namespace
+
+Scene read_scene(config::Document& document, const std::string& stage_name) {
+  config::Node root = document.root();
+  Scene scene;
+  demand_blocks(root, stage_name);
+  scene.seed = static_cast<std::uint64_t>(root.integer("seed", 1, config::between(0, 9e15)));
+  if (auto block = root.optional_block("layer")) scene.layer = read_layer(*block);
+  scene.species = read_species(root);
+  scene.packing = packing::read_packing(root.block("packing"));
+  scene.liquid = read_liquid(root.block("liquid"));
+  // TEMPORARY: taken as written until these rooms have their readers.
+  for (const char* key : {"hydrodynamics", "colloidal", "brownian", "substrate", "free_surface", "gravity", "dewatering",
+                          "stepping", "output"})
+    root.pass_through(key);
+  scene.analysis = analysis::read_analysis(root.block("analysis"));
+  check_layer(root, scene);
+  document.check();
+  return scene;
+}
+
+}  // namespace pigment::scene
