@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -14,7 +13,7 @@ namespace pigment {
 namespace {
 
 // In the order of the enumeration.
-constexpr std::array<DimensionInfo, 22> table{{
+constexpr DimensionInfo table[] = {
     {Dimension::Number, "number", "1", 1, "0.5"},
     {Dimension::Length, "length", "m", 1e6, "5 nm"},
     {Dimension::Area, "area", "m2", 1e12, "1e-18 m2"},
@@ -38,7 +37,7 @@ constexpr std::array<DimensionInfo, 22> table{{
     {Dimension::BrownianConstant, "Brownian constant", "N m-1/2", 1e9, "1e-9 N m-1/2"},
     {Dimension::MassFraction, "mass fraction", "1", 1, "65 wt%"},
     {Dimension::VolumeFraction, "volume fraction", "1", 1, "68 vol%"},
-}};
+};
 
 struct FreeUnit {
   void operator()(ut_unit* unit) const { ut_free(unit); }

@@ -44,7 +44,21 @@ void check_layer(config::Node& root, const Scene& scene) {
                                          *scene.layer->thickness, diameter));
 }
 
+void check_dewatering(config::Node& root, const Scene& scene) {
+  if (!scene.dewatering || !scene.layer || scene.species.empty()) return;
+  config::Node layer = root.block("layer");
+  for (const char* key : {"solids", "thickness", "coat_weight"})
+    if (layer.failed(key)) return;
+  dewatering::check_dewatering(root.block("dewatering"), *scene.dewatering, coating_of(scene));
+}
+
 }  // namespace
+
+dewatering::Coating coating_of(const Scene& scene) {
+  const LayerTarget target = layer_target(*scene.layer, scene.species, scene.liquid.density);
+  return {target.volume_fraction, target.thickness, dry_density(scene.species),
+          liquid_at(scene.liquid, scene.liquid.temperature)};
+}
 
 Scene read_scene(config::Document& document, const std::string& stage_name) {
   config::Node root = document.root();
@@ -56,11 +70,13 @@ Scene read_scene(config::Document& document, const std::string& stage_name) {
   scene.packing = packing::read_packing(root.block("packing"));
   scene.liquid = read_liquid(root.block("liquid"));
   // TEMPORARY: taken as written until these rooms have their readers.
-  for (const char* key : {"hydrodynamics", "colloidal", "brownian", "substrate", "free_surface", "gravity", "dewatering",
+  for (const char* key : {"hydrodynamics", "colloidal", "brownian", "substrate", "free_surface", "gravity",
                           "stepping", "output"})
     root.pass_through(key);
+  if (auto block = root.optional_block("dewatering")) scene.dewatering = dewatering::read_dewatering(*block);
   scene.analysis = analysis::read_analysis(root.block("analysis"));
   check_layer(root, scene);
+  check_dewatering(root, scene);
   document.check();
   return scene;
 }

@@ -7,6 +7,7 @@
 
 #include "analysis/parameters.h"
 #include "config/node.h"
+#include "dewatering/parameters.h"
 #include "model/layer_parameters.h"
 #include "model/liquid.h"
 #include "model/species.h"
@@ -21,6 +22,7 @@ struct Scene {
   std::vector<Species> species;  // the block `particles`; empty where it is absent
   packing::PackingParameters packing;
   LiquidParameters liquid;
+  std::optional<dewatering::DewateringParameters> dewatering;
   analysis::Parameters analysis;
 };
 
@@ -28,5 +30,8 @@ struct Scene {
 // InputError with all that is wrong. `stage` names the tool: the blocks it demands must be there.
 // Afterwards document.resolved(stage(name).reads) is what that tool's provenance keeps.
 Scene read_scene(config::Document&, const std::string& stage = "scene");
+
+// The wet coating that layer, particles and liquid describe; all three must be there.
+dewatering::Coating coating_of(const Scene&);
 
 }  // namespace pigment::scene
