@@ -1,0 +1,106 @@
+#include "report/html_report.h"
+
+#include <fmt/format.h>
+
+namespace pigment::report {
+namespace {
+
+// Series colours: hues apart, lightness uneven, so that they stay apart without colour vision and on paper.
+std::string palette(double lift) {
+  static constexpr double hues[8] = {252, 48, 158, 352, 88, 205, 300, 22};
+  static constexpr double lightness[8] = {0.52, 0.63, 0.50, 0.56, 0.66, 0.62, 0.46, 0.50};
+  std::string out;
+  for (int i = 0; i < 8; ++i) out += fmt::format("--s{}:{};", i + 1, to_hex(from_oklch(lightness[i] + lift, i == 4 || i == 5 ? 0.115 : 0.15, hues[i])));
+  return out;
+}
+
+std::string palette_style() {
+  return ":root{" + palette(0) + "}\n@media (prefers-color-scheme:dark){@media screen{:root{" + palette(0.19) + "}}}\n";
+}
+
+}  // namespace
+
+HtmlReport::HtmlReport(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+
+void HtmlReport::close_section() {
+  if (open_) body_ += "</section>\n";
+  open_ = false;
+}
+
+void HtmlReport::chapter(const std::string& title) {
+  close_section();
+  body_ += "<h2 class=\"chapter\">" + html_escape(title) + "</h2>\n";
+}
+
+void HtmlReport::section(const std::string& title, const std::string& text) {
+  close_section();
+  const std::string anchor = fmt::format("section{}", sections_.size() + 1);
+  sections_.emplace_back(anchor, title);
+  body_ += fmt::format("<section id=\"{}\"><h2>{}</h2>\n", anchor, html_escape(title));
+  if (!text.empty()) body_ += "<p>" + html_escape(text) + "</p>\n";
+  open_ = true;
+}
+
+void HtmlReport::headlines(const std::vector<Headline>& numbers) {
+  body_ += "<dl class=\"headlines\">\n";
+  for (const Headline& h : numbers) {
+    body_ += fmt::format("<div><dt>{}</dt><dd><b>{}</b>{}</dd>", html_escape(h.label), html_escape(h.value),
+                         h.unit.empty() ? "" : " <span>" + html_escape(h.unit) + "</span>");
+    if (!h.note.empty()) body_ += "<dd class=\"note\">" + html_escape(h.note) + "</dd>";
+    body_ += "</div>\n";
+  }
+  body_ += "</dl>\n";
+}
+
+void HtmlReport::plots(const std::vector<Plot>& plots) {
+  body_ += "<div class=\"plots\">\n";
+  for (const Plot& p : plots) body_ += plot_figure(p, fmt::format("plot{}", ++plots_));
+  body_ += "</div>\n";
+}
+
+void HtmlReport::images(const std::vector<CaptionedImage>& images, const std::string& note) {
+  body_ += "<div class=\"pictures\">\n";
+  for (const CaptionedImage& i : images)
+    body_ += fmt::format("<figure><img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"{}\"><figcaption>{}</figcaption></figure>\n",
+                         html_escape(i.description), i.image.width, i.image.height, png_data_uri(i.image), html_escape(i.caption));
+  body_ += "</div>\n";
+  if (!note.empty()) body_ += "<p class=\"note\">" + html_escape(note) + "</p>\n";
+}
+
+void HtmlReport::table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
+  body_ += "<div class=\"scroll\"><table>";
+  if (!head.empty()) {
+    body_ += "<thead><tr>";
+    for (const std::string& h : head) body_ += "<th>" + html_escape(h) + "</th>";
+    body_ += "</tr></thead>";
+  }
+  body_ += "<tbody>\n";
+  for (const auto& row : rows) {
+    body_ += "<tr>";
+    for (const std::string& cell : row) body_ += "<td>" + html_escape(cell) + "</td>";
+    body_ += "</tr>\n";
+  }
+  body_ += "</tbody></table></div>\n";
+}
+
+void HtmlReport::folded(const std::string& summary, const std::string& preformatted) {
+  body_ += "<details><summary>" + html_escape(summary) + "</summary><pre>" + html_escape(preformatted) + "</pre></details>\n";
+}
+
+void HtmlReport::remark(const std::string& text) { body_ += "<p class=\"remark\">" + html_escape(text) + "</p>\n"; }
+
+std::string HtmlReport::page() const {
+  std::string contents;
+  for (const auto& [anchor, title] : sections_) contents += fmt::format("<a href=\"#{}\">{}</a>", anchor, html_escape(title));
+  std::string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
+         "script-src 'unsafe-inline'\">\n";
+  out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n";
+  out += "<link rel=\"icon\" href=\"data:,\">\n<title>" + html_escape(title_) + "</title>\n<style>\n" + palette_style() + page_style + "</style>\n</head>\n<body>\n";
+  out += "<header><h1>" + html_escape(title_) + "</h1>";
+  if (!subtitle_.empty()) out += "<p>" + html_escape(subtitle_) + "</p>";
+  out += "</header>\n<nav>" + contents + "</nav>\n<main>\n" + body_ + (open_ ? "</section>\n" : "") + "</main>\n";
+  return out + "<script>\n" + page_script + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace pigment::report

@@ -1,0 +1,48 @@
+#pragma once
+// One HTML page that stands alone: style, script, plots and pictures inside, nothing fetched from anywhere.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/png_image.h"
+#include "report/svg_plot.h"
+
+namespace pigment::report {
+
+struct Headline {  // one number of the summary
+  std::string label, value, unit, note;
+};
+
+struct CaptionedImage {
+  std::string caption, description;  // description: for readers who cannot see it
+  Image image;
+};
+
+class HtmlReport {
+ public:
+  explicit HtmlReport(std::string title, std::string subtitle = {});
+
+  void chapter(const std::string& title);                           // a run, where there are several
+  void section(const std::string& title, const std::string& text = {});
+  void headlines(const std::vector<Headline>&);
+  void plots(const std::vector<Plot>&);                             // side by side where there is room
+  void images(const std::vector<CaptionedImage>&, const std::string& note = {});  // in one row
+  void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
+  void folded(const std::string& summary, const std::string& preformatted);
+  void remark(const std::string& text);                             // set apart: what a reader must know
+  bool empty() const { return sections_.empty(); }
+
+  std::string page() const;  // the same bytes for the same calls
+
+ private:
+  std::string title_, subtitle_, body_, footer_;
+  std::vector<std::pair<std::string, std::string>> sections_;  // anchor, title
+  int plots_ = 0;
+  bool open_ = false;
+  void close_section();
+};
+
+extern const char* const page_style;   // CSS
+extern const char* const page_script;  // JavaScript
+
+}  // namespace pigment::report

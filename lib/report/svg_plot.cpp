@@ -1,0 +1,266 @@
+#include "report/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/ticks.h"
+
+namespace pigment::report {
+namespace {
+
+constexpr double width = 640, left = 64, right = 16, top = 14, bottom = 50;
+
+struct Scale {
+  double low = 0, high = 1, begin = 0, end = 1;  // data range and the pixels it maps to
+  bool logarithmic = false;
+  double operator()(double v) const {
+    const double t = logarithmic ? std::log(std::max(v, low * 1e-3) / low) / std::log(high / low) : (v - low) / (high - low);
+    return begin + t * (end - begin);
+  }
+};
+
+// Coordinates with two decimals: a hundredth of a pixel.
+std::string px(double v) {
+  std::string text = fmt::format("{:.2f}", v);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+template <typename Visit>
+void for_each_series(const Plot& plot, Visit visit) {
+  for (const Series& s : plot.series) visit(s);
+  for (const PlotFrame& f : plot.frames)
+    for (const Series& s : f.series) visit(s);
+}
+
+Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, double end) {
+  double low = INFINITY, high = -INFINITY;
+  const auto take = [&](double v) {
+    if (!std::isfinite(v) || (axis.logarithmic && v <= 0)) return;
+    low = std::min(low, v), high = std::max(high, v);
+  };
+  for_each_series(plot, [&](const Series& s) {
+    for (std::size_t i = 0; i < (is_x ? s.x : s.y).size(); ++i) {
+      const double v = (is_x ? s.x : s.y)[i];
+      const double e = !is_x && i < s.error.size() ? s.error[i] : 0;
+      take(v - e), take(v + e);
+    }
+  });
+  const bool marked = is_x != plot.read_by_height;
+  if (marked)
+    for (const MarkerLine& m : plot.markers) take(m.value);
+  if (!(low <= high)) low = axis.logarithmic ? 1 : 0, high = axis.logarithmic ? 10 : 1;
+  if (axis.from_zero && !axis.logarithmic) low = std::min(low, 0.0), high = std::max(high, 0.0);
+  if (low == high) {
+    const double pad = low == 0 ? 1 : 0.1 * std::abs(low);
+    if (axis.logarithmic) low /= 2, high *= 2;
+    else low -= pad, high += pad;
+  }
+  // Air above and below the curves, none beside them; zero stays at the axis.
+  if (!is_x || plot.read_by_height) {
+    if (axis.logarithmic) {
+      const double f = std::pow(high / low, 0.04);
+      low /= f, high *= f;
+    } else {
+      const double pad = 0.05 * (high - low);
+      if (low != 0 || !axis.from_zero) low -= low > 0 && low < pad ? low : pad;
+      if (high != 0) high += pad;
+    }
+  }
+  low = axis.low.value_or(low), high = axis.high.value_or(high);
+  if (!(high > low)) high = low + 1;
+  return {low, high, begin, end, axis.logarithmic};
+}
+
+Ticks ticks_for(const Scale& s, int wanted) {
+  if (s.logarithmic) {
+    Ticks ticks = logarithmic_ticks(s.low, s.high);
+    if (ticks.values.size() >= 2) return ticks;
+  }
+  return linear_ticks(s.low, s.high, wanted);
+}
+
+std::string colour_of(const Series& s, std::size_t index) {
+  if (!s.fixed_colour.empty()) return s.fixed_colour;
+  const std::size_t slot = s.colour >= 0 ? static_cast<std::size_t>(s.colour) : index;
+  return fmt::format("var(--s{})", slot % 8 + 1);
+}
+
+std::string axis_title(const Axis& a) {
+  return html_escape(a.unit.empty() ? a.label : a.label + " (" + a.unit + ")");
+}
+
+std::string path_of(const Series& s, const Scale& x, const Scale& y) {
+  std::string path;
+  bool pen_down = false;
+  for (std::size_t i = 0; i < s.y.size(); ++i) {
+    if (!std::isfinite(s.y[i]) || i >= s.x.size()) {
+      pen_down = false;
+      continue;
+    }
+    if (s.style == SeriesStyle::Steps) {
+      if (i + 1 >= s.x.size()) break;
+      path += fmt::format("{}{} {}H{}", pen_down ? "V" : "M", pen_down ? px(y(s.y[i])) : px(x(s.x[i])),
+                          pen_down ? "" : px(y(s.y[i])), px(x(s.x[i + 1])));
+    } else {
+      path += fmt::format("{}{} {}", pen_down ? "L" : "M", px(x(s.x[i])), px(y(s.y[i])));
+    }
+    pen_down = true;
+  }
+  return path;
+}
+
+std::string series_group(const Series& s, std::size_t index, const Scale& x, const Scale& y, bool emphasised) {
+  std::string out = fmt::format(R"(<g class="series{}" data-series="{}" style="color:{}">)", emphasised ? " current" : "", index,
+                                html_escape(colour_of(s, index)));
+  const bool points = s.style == SeriesStyle::Points || s.style == SeriesStyle::LineAndPoints;
+  if (s.style != SeriesStyle::Points)
+    out += fmt::format(R"(<path class="line{}" d="{}"/>)", s.style == SeriesStyle::Dashed ? " dashed" : "", path_of(s, x, y));
+  for (std::size_t i = 0; i < s.error.size() && i < s.y.size(); ++i)
+    if (s.error[i] > 0)
+      out += fmt::format(R"(<path class="bar" d="M{0} {1}V{2}M{3} {1}h8M{3} {2}h8"/>)", px(x(s.x[i])), px(y(s.y[i] - s.error[i])),
+                         px(y(s.y[i] + s.error[i])), px(x(s.x[i]) - 4));
+  if (points)
+    for (std::size_t i = 0; i < s.y.size(); ++i)
+      if (std::isfinite(s.y[i])) out += fmt::format(R"(<circle class="dot" cx="{}" cy="{}" r="3.2"/>)", px(x(s.x[i])), px(y(s.y[i])));
+  return out + "</g>";
+}
+
+std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
+  std::string out;
+  const double floor = y.begin, ceiling = y.end;
+  const Ticks x_ticks = ticks_for(x, 6), y_ticks = ticks_for(y, 5);
+  for (std::size_t i = 0; i < x_ticks.values.size(); ++i) {
+    const double v = x_ticks.values[i];
+    out += fmt::format(R"(<path class="grid" d="M{0} {1}V{2}"/><text class="tick" x="{0}" y="{3}" text-anchor="middle">{4}</text>)", px(x(v)),
+                       px(floor), px(ceiling), px(floor + 18), x_ticks.labels[i]);
+  }
+  for (std::size_t i = 0; i < y_ticks.values.size(); ++i) {
+    const double v = y_ticks.values[i];
+    out += fmt::format(R"(<path class="grid" d="M{0} {1}H{2}"/><text class="tick" x="{3}" y="{4}" text-anchor="end">{5}</text>)", px(x.begin),
+                       px(y(v)), px(x.end), px(x.begin - 8), px(y(v) + 4), y_ticks.labels[i]);
+  }
+  out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", px(x.begin), px(ceiling), px(floor), px(x.end));
+  out += fmt::format(R"(<text class="label" x="{}" y="{}" text-anchor="middle">{}</text>)", px(0.5 * (x.begin + x.end)), px(floor + 40),
+                     axis_title(plot.x));
+  out += fmt::format(R"svg(<text class="label" transform="translate(16 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
+                     px(0.5 * (floor + ceiling)), axis_title(plot.y));
+  return out;
+}
+
+std::string marker_lines(const Plot& plot, const Scale& x, const Scale& y) {
+  std::string out;
+  for (std::size_t i = 0; i < plot.markers.size(); ++i) {
+    const MarkerLine& m = plot.markers[i];
+    if (plot.read_by_height) {
+      out += fmt::format(R"(<path class="marker" d="M{0} {1}H{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="end">{5}</text>)",
+                         px(x.begin), px(y(m.value)), px(x.end), px(x.end - 4), px(y(m.value) - 5), html_escape(m.label));
+      continue;
+    }
+    const double at = x(m.value);
+    const bool flip = at > 0.62 * (x.begin + x.end);  // keep the label inside the plot
+    out += fmt::format(R"(<path class="marker" d="M{0} {1}V{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="{5}">{6}</text>)", px(at),
+                       px(y.begin), px(y.end), px(at + (flip ? -6 : 6)), px(y.end + 13 + 15 * static_cast<double>(i % 3)), flip ? "end" : "start",
+                       html_escape(m.label));
+  }
+  return out;
+}
+
+std::string json_numbers(const std::vector<double>& values) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i) out += ',';
+    out += std::isfinite(values[i]) ? fmt::format("{:.5g}", values[i]) : "null";
+  }
+  return out + "]";
+}
+
+std::string json_series(const std::vector<Series>& all) {
+  std::string out = "[";
+  for (const Series& s : all) {
+    if (out.size() > 1) out += ',';
+    out += fmt::format(R"({{"name":{},"steps":{},"x":{},"y":{}}})", json_string(s.name), s.style == SeriesStyle::Steps ? 1 : 0, json_numbers(s.x),
+                       json_numbers(s.y));
+  }
+  return out + "]";
+}
+
+std::string json_scale(const Axis& a, const Scale& s) {
+  return fmt::format(R"({{"label":{},"unit":{},"low":{:.9g},"high":{:.9g},"begin":{},"end":{},"log":{}}})", json_string(a.label),
+                     json_string(a.unit), s.low, s.high, px(s.begin), px(s.end), s.logarithmic ? 1 : 0);
+}
+
+std::string data_script(const Plot& plot, const Scale& x, const Scale& y) {
+  std::string frames = "[";
+  for (const PlotFrame& f : plot.frames) {
+    if (frames.size() > 1) frames += ',';
+    frames += fmt::format(R"({{"label":{},"series":{}}})", json_string(f.label), json_series(f.series));
+  }
+  return fmt::format(R"(<script type="application/json">{{"x":{},"y":{},"byHeight":{},"series":{},"frames":{}]}}</script>)",
+                     json_scale(plot.x, x), json_scale(plot.y, y), plot.read_by_height ? 1 : 0, json_series(plot.series), frames);
+}
+
+std::string legend(const Plot& plot) {
+  std::string keys;
+  const auto add = [&](const Series& s, std::size_t i) {
+    if (s.legend && !s.name.empty())
+      keys += fmt::format(R"(<button type="button" class="key{}" data-series="{}" aria-pressed="true"><i style="background:{}"></i>{}</button>)",
+                          s.style == SeriesStyle::Dashed ? " dashed" : "", i, html_escape(colour_of(s, i)), html_escape(s.name));
+  };
+  for (std::size_t i = 0; i < plot.series.size(); ++i) add(plot.series[i], i);
+  if (!plot.frames.empty())
+    for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i) add(plot.frames.back().series[i], plot.series.size() + i);
+  return keys.empty() ? "" : R"(<div class="legend">)" + keys + "</div>";
+}
+
+}  // namespace
+
+std::string html_escape(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '"') out += "&quot;";
+    else if (c == '\'') out += "&#39;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+  }
+  return out;
+}
+
+std::string json_string(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += fmt::format("\\{}", c);
+    else if (c == '<' || c == '>' || c == '&' || static_cast<unsigned char>(c) < 0x20) out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else out += c;
+  }
+  return out + "\"";
+}
+
+std::string plot_figure(const Plot& plot, const std::string& id) {
+  const double floor = plot.height - bottom;
+  const Scale x = scale_for(plot, plot.x, true, left, width - right), y = scale_for(plot, plot.y, false, floor, top);
+  std::string out = fmt::format(R"(<figure class="plot" id="{}"><figcaption>{}</figcaption>)", id, html_escape(plot.title));
+  out += legend(plot);
+  out += fmt::format(R"(<div class="canvas"><svg viewBox="0 0 {} {}" role="img" tabindex="0" aria-label="{}">)", width, plot.height,
+                     html_escape(plot.title));
+  out += fmt::format(R"(<clipPath id="{}-clip"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>)", id, px(x.begin), px(y.end - 4),
+                     px(x.end - x.begin + 4), px(y.begin - y.end + 8));
+  out += axes(plot, x, y) + fmt::format(R"svg(<g clip-path="url(#{}-clip)">)svg", id);
+  for (std::size_t i = 0; i < plot.series.size(); ++i) out += series_group(plot.series[i], i, x, y, false);
+  if (!plot.frames.empty())
+    for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i)
+      out += series_group(plot.frames.back().series[i], plot.series.size() + i, x, y, true);
+  out += "</g>" + marker_lines(plot, x, y) + R"(<g class="hover"></g></svg><div class="tip" hidden></div></div>)";
+  if (plot.frames.size() > 1)
+    out += fmt::format(R"(<label class="slider"><input type="range" min="0" max="{0}" value="{0}" step="1" aria-label="time"><output>{1}</output></label>)",
+                       plot.frames.size() - 1, html_escape(plot.frames.back().label));
+  if (!plot.note.empty()) out += "<p class=\"note\">" + html_escape(plot.note) + "</p>";
+  return out + data_script(plot, x, y) + "</figure>\n";
+}
+
+}  // namespace pigment::report
