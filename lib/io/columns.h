@@ -8,7 +8,8 @@
 
 namespace pigment::io {
 
-// value(entry) is a number: shape [entries]; or an array of numbers, of one length in all entries: [entries, length].
+// value(entry) is a number: shape [entries]; or an array of numbers, of one length in all entries: [entries,
+// length].
 template <typename Entries, typename Value>
 Dataset column(const std::string& path, Dimension dimension, const Entries& entries, const Value& value,
                Dataset::Storage storage = Dataset::Storage::Float64) {
@@ -29,7 +30,8 @@ Dataset column(const std::string& path, Dimension dimension, const Entries& entr
 template <typename Number>
 Dataset column(const std::string& path, Dimension dimension, const std::vector<Number>& numbers,
                Dataset::Storage storage = Dataset::Storage::Float64) {
-  return column(path, dimension, numbers, [](Number number) { return number; }, storage);
+  return column(
+      path, dimension, numbers, [](Number number) { return number; }, storage);
 }
 
 }  // namespace pigment::io

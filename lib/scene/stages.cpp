@@ -15,7 +15,7 @@ const std::vector<Stage>& stages() {
        {"particles"},
        {"seed", "particles", "liquid", "hydrodynamics", "colloidal", "brownian", "substrate", "free_surface", "gravity",
         "stepping", "output"}},
-      {"solids", {}, {"analysis"}},
+      {"solids", {}, {"particles", "liquid", "analysis"}},
       {"cluster", {}, {"analysis"}},
       {"separation", {}, {"analysis"}},
       {"mobility", {}, {"analysis"}},
