@@ -14,7 +14,6 @@ namespace pigment {
 namespace {
 
 constexpr int cells = 2000;
-constexpr double standard_deviations_kept = 5;
 
 std::string micrometres(double d) {
   std::ostringstream text;
@@ -43,16 +42,11 @@ Bell bell_of(const SizeLaw& law) {
   bell.centre = bell.logarithmic ? std::log(law.median) : law.mean;
   bell.width = bell.logarithmic ? std::log(law.geometric_standard_deviation) : law.standard_deviation;
   if (!(bell.width > 0)) throw InputError("the size law's standard deviation is not above zero; use law: monodisperse");
-  const double low = bell.centre - standard_deviations_kept * bell.width;
-  const double high = bell.centre + standard_deviations_kept * bell.width;
-  bell.low = law.min > 0 ? law.min : (bell.logarithmic ? std::exp(low) : low);
-  bell.high = law.max > 0 ? law.max : (bell.logarithmic ? std::exp(high) : high);
-  if (!(bell.low > 0))
-    throw InputError("the normal size law reaches diameters below zero (mean less " +
-                     std::to_string(static_cast<int>(standard_deviations_kept)) + " standard deviations is " +
-                     micrometres(low) + "); give it a min");
-  if (!(bell.low < bell.high))
-    throw InputError("the size law's min, " + micrometres(bell.low) + ", is not below its max, " + micrometres(bell.high));
+  bell.low = law.min;
+  bell.high = law.max;
+  if (!(bell.low > 0 && bell.low < bell.high))
+    throw InputError("the size law's cut-offs, " + micrometres(bell.low) + " and " + micrometres(bell.high) +
+                     ", are not above zero and rising");
   // Where the cut-offs leave next to nothing of the law, one of the two is a slip of the pen.
   if (normal_probability(bell.x(bell.low), bell.x(bell.high)) < 1e-6)
     throw InputError("the size law has less than a millionth of its weight between " + micrometres(bell.low) + " and " +

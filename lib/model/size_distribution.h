@@ -8,12 +8,12 @@ namespace pigment {
 
 // Between its cut-offs a law is held as weight on a fine logarithmic grid of diameters, spread evenly over ln d within
 // each cell; tables are taken at their own points, which makes them straight lines over ln d. Number follows from
-// weight by dN = dW / (density pi/6 d^3), cell by cell in closed form. Where a scene gives no cut-offs the normal and
-// log-normal laws are cut five standard deviations (of d, of ln d) from the middle.
+// weight by dN = dW / (density pi/6 d^3), cell by cell in closed form. The normal and log-normal laws have cut-offs; a
+// table ends with its rows, or at cut-offs inside them.
 class SizeDistribution {
  public:
   // Throws FileError for a table that cannot be used (with its line) and InputError for a law without weight between
-  // its cut-offs, or one that reaches down to zero diameter.
+  // its cut-offs.
   explicit SizeDistribution(const SizeLaw&);
 
   bool monodisperse() const { return diameter_.size() == 1; }

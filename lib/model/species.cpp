@@ -81,7 +81,13 @@ SizeLaw read_size(config::Node block) {
           block.quantity("diameter", Dimension::Length, diameter_range);
       law.geometric_standard_deviation = 1;
       break;
-    case SizeLaw::Kind::Table: law.file = block.file("file"); break;
+    case SizeLaw::Kind::Table:
+      law.file = block.file("file");
+      // The rows themselves are the cut-offs unless these lie further in.
+      law.min = block.optional_quantity("min", Dimension::Length, diameter_range).value_or(0);
+      law.max = block.optional_quantity("max", Dimension::Length, diameter_range).value_or(0);
+      if (law.min > 0 && law.max > 0) read_cuts(block, law);
+      break;
   }
   return law;
 }
