@@ -60,8 +60,11 @@ void expect_valid(const Recipe& r, const Packing& packing) {
   // A sum over N particles and a square root: rounding only.
   const double achieved = r.layer.solids_by_weight ? solids.mass_fraction : solids.volume_fraction;
   EXPECT_NEAR(achieved, r.layer.solids, 1e-13);
-  if (r.layer.thickness) EXPECT_EQ(layer.cell.height, *r.layer.thickness);
-  if (r.layer.coat_weight) EXPECT_NEAR(solids.coat_weight / *r.layer.coat_weight, 1, 1e-13);
+  if (r.layer.thickness) {
+    EXPECT_EQ(layer.cell.height, *r.layer.thickness);
+  } else {
+    EXPECT_NEAR(solids.coat_weight / *r.layer.coat_weight, 1, 1e-13);
+  }
   // Radii are the sampled ones to the bit: nothing was grown or shrunk to fit.
   const double volume = packing.target.volume_fraction * packing.target.thickness * r.layer.width * r.layer.width;
   EXPECT_EQ(layer.particles.radius, sample_particles(r.species, packing.sizes, volume, r.seed).radius);
