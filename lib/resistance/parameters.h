@@ -1,0 +1,16 @@
+#pragma once
+// The scene's `hydrodynamics` block.
+#include "config/node.h"
+#include "resistance/pair_lubrication.h"
+
+namespace pigment::resistance {
+
+struct HydrodynamicsParameters {
+  enum class Model { Exact, Drag };
+  Model model = Model::Exact;
+  bool rotation = true;
+  LubricationTaper taper;  // of the pair term
+};
+HydrodynamicsParameters read_hydrodynamics(config::Node);
+
+}  // namespace pigment::resistance

@@ -1,0 +1,14 @@
+#include "solve/chunks.h"
+
+#include <algorithm>
+
+namespace pigment::solve {
+
+Chunks make_chunks(std::size_t particles) {
+  const std::size_t count = std::max<std::size_t>(1, (particles + 255) / 256);
+  Chunks chunks;
+  for (std::size_t c = 0; c <= count; ++c) chunks.begin.push_back(static_cast<int>(particles * c / count));
+  return chunks;
+}
+
+}  // namespace pigment::solve

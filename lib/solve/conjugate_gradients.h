@@ -1,0 +1,25 @@
+#pragma once
+// Preconditioned conjugate gradients on a PairSystem, block Jacobi preconditioner. Same bytes at any number of threads.
+#include <string>
+#include <vector>
+
+#include "solve/pair_system.h"
+
+namespace pigment::solve {
+
+struct SolveReport {
+  bool converged = false;
+  int iterations = 0;
+  double residual = -1;  // sqrt(r M^-1 r / b M^-1 b)
+  std::string message;
+};
+
+struct ConjugateGradientOptions {
+  double tolerance = 1e-6;   // on the residual above
+  int max_iterations = 2000;
+};
+
+// x: in, the starting guess (empty: zero); out, the solution. An unconverged or non-finite solve is a report, not an error.
+SolveReport conjugate_gradients(const PairSystem&, std::vector<double>& x, const ConjugateGradientOptions&);
+
+}  // namespace pigment::solve

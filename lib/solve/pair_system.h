@@ -1,0 +1,74 @@
+#pragma once
+// The linear system of one step, (R + dt K) U = F, kept as it is built: five scalars a particle and five (or one) a pair.
+//
+// Unknowns of particle k: velocity (3) and, with rotation, angular velocity (3), one after the other: x[k*D + ...], D = 3 or 6.
+//   particle:  F_xy = across U_xy + coupling (W x z)_xy,  F_z = along U_z,
+//              T_xy = spin_across W_xy + coupling (z x U)_xy,  T_z = spin_along W_z
+//   pair:      v = u_i - u_j + (l_i w_i + l_j w_j) x n,  w = w_i - w_j,  s = n x v,  q = w - (n.w) n
+//              g_s = a s + b q,  g_q = b s + c q
+//              F_i = squeeze (n.v) n + g_s x n = -F_j,   T_i = l_i g_s + t,  T_j = l_j g_s - t,  t = twist (n.w) n + g_q
+// l = radius + gap/2. The matrix is symmetric by construction. A pair is owned by the chunk of its particle i; what it adds to
+// a particle j of another chunk goes to a slot of its own ("halo") and is gathered in fixed order, so no two threads ever
+// write to one place and the sum has one order.
+#include <cstdint>
+#include <vector>
+
+#include "solve/chunks.h"
+
+namespace pigment::solve {
+
+struct ParticleTerm {
+  double across = 0, along = 0, coupling = 0, spin_across = 0, spin_along = 0;
+};
+// Shear, pump and twist besides squeeze.
+struct FullPair {
+  std::int32_t i, j, target;  // target: where contributions to j go: j itself, or N + halo slot
+  double n[3], l_i, l_j, squeeze, twist, a, b, c;
+};
+// Far enough for squeeze alone.
+struct SqueezePair {
+  std::int32_t i, j, target;
+  double n[3], squeeze;
+};
+
+// Which pairs there are and who owns them; made once a neighbour list.
+class PairTopology {
+ public:
+  PairTopology() = default;
+  // pair_i, pair_j: particles of each pair, sorted by i.
+  PairTopology(std::size_t particles, const std::vector<std::int32_t>& pair_i, const std::vector<std::int32_t>& pair_j);
+  std::size_t particles() const { return particles_; }
+  const Chunks& chunks() const { return chunks_; }
+  std::int32_t target(std::size_t pair) const { return target_[pair]; }
+  std::size_t pair_begin(int chunk) const { return pair_begin_[chunk]; }  // pairs owned by a chunk
+  std::size_t halo_count() const { return halo_begin_.empty() ? 0 : halo_begin_.back(); }
+  std::size_t halo_begin(int chunk) const { return halo_begin_[chunk]; }
+  // Halo slots that belong to a particle, in fixed order.
+  const std::int32_t* slots_begin(std::size_t k) const { return slots_.data() + slot_begin_[k]; }
+  const std::int32_t* slots_end(std::size_t k) const { return slots_.data() + slot_begin_[k + 1]; }
+
+ private:
+  std::size_t particles_ = 0;
+  Chunks chunks_;
+  std::vector<std::int32_t> target_, slots_, slot_begin_;
+  std::vector<std::size_t> pair_begin_, halo_begin_;
+};
+
+struct PairSystem {
+  bool rotation = true;
+  const PairTopology* topology = nullptr;
+  std::vector<ParticleTerm> particle;
+  // One array a chunk, so that chunks fill and read theirs independently.
+  std::vector<std::vector<FullPair>> full;
+  std::vector<std::vector<SqueezePair>> squeeze;
+  std::vector<double> right_hand_side;  // D a particle
+
+  int unknowns_per_particle() const { return rotation ? 6 : 3; }
+};
+
+// y = A x; vectors of D entries a particle.
+void apply(const PairSystem&, const std::vector<double>& x, std::vector<double>& y);
+// Dense D x D diagonal block of every particle, row-major, D*D entries a particle.
+std::vector<double> diagonal_blocks(const PairSystem&);
+
+}  // namespace pigment::solve

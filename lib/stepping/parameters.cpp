@@ -1,0 +1,26 @@
+#include "stepping/parameters.h"
+
+namespace pigment::stepping {
+
+SteppingParameters read_stepping(config::Node node) {
+  using P = SteppingParameters;
+  P p;
+  // auto: linearly implicit.
+  p.integrator = node.choice<P::Integrator>("integrator", {{"auto", P::Integrator::LinearlyImplicit},
+                                                            {"linearly_implicit", P::Integrator::LinearlyImplicit},
+                                                            {"explicit_euler", P::Integrator::ExplicitEuler}}, "auto");
+  if (node.has("time_step") && !node.is_word("time_step", "auto"))
+    p.time_step = node.quantity("time_step", Dimension::Time, config::positive());
+  else
+    node.accept_word("time_step", "auto");
+  p.tolerance = node.number("tolerance", 1e-2, config::strictly_between(0, 1));
+  p.until = node.optional_quantity("until", Dimension::Time, config::positive());
+  p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"until", P::StopWhen::Until}}, "immobile");
+  p.solver_tolerance = node.number("solver_tolerance", 1e-5, config::strictly_between(0, 0.1));
+  p.immobile_rate = node.number("immobile_rate", 1e-2, config::strictly_between(0, 1));
+  return p;
+}
+
+OutputParameters read_output(config::Node node) { return {node.quantity("every", Dimension::Time, "5 ms", config::positive())}; }
+
+}  // namespace pigment::stepping

@@ -1,0 +1,27 @@
+#pragma once
+// The scene's `stepping` and `output` blocks.
+#include <optional>
+
+#include "config/node.h"
+
+namespace pigment::stepping {
+
+struct SteppingParameters {
+  enum class Integrator { LinearlyImplicit, ExplicitEuler };
+  Integrator integrator = Integrator::LinearlyImplicit;
+  double tolerance = 1e-2;           // error of a gap in one step, in Debye lengths (see step_control.h)
+  std::optional<double> time_step;   // ms; given: fixed steps
+  std::optional<double> until;       // ms; absent: the end of the dewatering curve
+  enum class StopWhen { Immobile, Until };
+  StopWhen stop_when = StopWhen::Until;
+  double solver_tolerance = 1e-5;    // relative residual of each solve
+  double immobile_rate = 1e-2;       // non-affine rms of U_z over |dH/dt|
+};
+SteppingParameters read_stepping(config::Node);
+
+struct OutputParameters {
+  double every = 5;  // ms
+};
+OutputParameters read_output(config::Node);
+
+}  // namespace pigment::stepping
