@@ -1,0 +1,418 @@
+#include "assembly/step_assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "forces/surface_spring.h"
+#include "resistance/boundary_resistance.h"
+#include "resistance/pair_lubrication.h"
+
+namespace pigment::assembly {
+
+namespace {
+
+// Lubrication theory ends where the surfaces do; an overlapping pair keeps the resistance of this share of the smaller radius.
+constexpr double smallest_hydrodynamic_gap = 1e-6;
+// A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above.
+constexpr double largest_fall = 0.2;
+
+double hydrodynamic_gap(double gap, double radius) { return std::max(gap, smallest_hydrodynamic_gap * radius); }
+
+// Whether a gap came out far from what the system was linearised about.
+bool off_guess(double gap, double guess, bool refined) {
+  return refined ? std::abs(gap - guess) > 0.1 * guess : gap < 0.5 * guess;
+}
+
+double next_guess(double gap, double guess) { return std::max(gap, largest_fall * guess); }
+
+std::vector<int> chunk_of_pairs(const solve::PairTopology& t) {
+  std::vector<int> count;
+  for (int c = 0; c < t.chunks().count(); ++c) count.push_back(static_cast<int>(t.pair_begin(c + 1) - t.pair_begin(c)));
+  return count;
+}
+
+solve::PairTopology topology_of(std::size_t particles, const std::vector<neighbours::IndexPair>& pairs) {
+  std::vector<std::int32_t> i(pairs.size()), j(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    i[p] = pairs[p].i;
+    j[p] = pairs[p].j;
+  }
+  return solve::PairTopology(particles, i, j);
+}
+
+}  // namespace
+
+StepAssembly::StepAssembly(const Interactions& interactions, const Particles& particles, const Cell& cell,
+                           const neighbours::NeighbourList& list)
+    : interactions_(interactions), cell_(cell), order_(list.order), pairs_(list.pairs),
+      topology_(topology_of(particles.size(), list.pairs)) {
+  const std::size_t n = particles.size();
+  radius_.resize(n);
+  mass_.resize(n);
+  std::vector<double> potential(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    radius_[k] = particles.radius[order_[k]];
+    mass_[k] = particles.mass[order_[k]];
+    potential[k] = interactions.surface_potential[particles.species[order_[k]]];
+  }
+  geometry_.resize(pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [i, j] = pairs_[p];
+    geometry_[p] = {0, radius_[i], radius_[j], potential[i], potential[j]};
+  }
+  if (interactions.substrate) {
+    substrate_geometry_.resize(n);
+    for (std::size_t k = 0; k < n; ++k)
+      substrate_geometry_[k] = {0, radius_[k], std::numeric_limits<double>::infinity(), potential[k],
+                                interactions.substrate->surface_potential.value_or(potential[k])};
+  }
+  normal_.resize(pairs_.size());
+  gap_begin_.resize(pairs_.size());
+  scalars_.resize(pairs_.size());
+  position_.resize(n);
+  protrusion_guess_.assign(n, 0.0);
+  protrusion_end_.assign(n, 0.0);
+  const std::vector<int> count = chunk_of_pairs(topology_);
+  force_.resize(count.size());
+  stiffness_.resize(count.size());
+  for (std::size_t c = 0; c < count.size(); ++c) {
+    force_[c].resize(count[c]);
+    stiffness_[c].resize(count[c]);
+  }
+}
+
+void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liquid& liquid, double dt, bool implicit,
+                         const Vec3Array& force, const std::vector<double>& protrusion) {
+  film_ = film;
+  liquid_ = liquid;
+  dt_ = dt;
+  implicit_ = implicit;
+  if (liquid.temperature != prepared_temperature_) {
+    laws_.clear();
+    for (const auto& [name, law] : interactions_.colloidal) laws_.push_back(law->prepare(liquid));
+    prepared_temperature_ = liquid.temperature;
+  }
+  const std::size_t n = radius_.size();
+  external_force_.resize(force.empty() ? 0 : n);
+  const int chunks = topology_.chunks().count();
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < n; ++k) {
+    position_[k] = position[order_[k]];
+    if (!force.empty()) external_force_[k] = force[order_[k]];
+    if (interactions_.free_surface) protrusion_guess_[k] = protrusion[order_[k]];
+    if (interactions_.substrate) substrate_geometry_[k].gap = position_[k].z() - radius_[k];
+  }
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c)
+    for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
+      const auto [i, j] = pairs_[p];
+      const Vec3 d = cell_.minimum_image(position_[j] - position_[i]);
+      const double r = d.norm();
+      normal_[p] = d / r;
+      gap_begin_[p] = geometry_[p].gap = r - radius_[i] - radius_[j];
+      if (interactions_.lubrication()) {
+        const double smaller = std::min(radius_[i], radius_[j]);
+        scalars_[p] = resistance::tapered_pair_scalars(radius_[i], radius_[j], hydrodynamic_gap(gap_begin_[p], smaller),
+                                                       interactions_.hydrodynamics.taper);
+      }
+    }
+}
+
+double StepAssembly::wall_resistance(int k) const {
+  const double a = radius_[k], gap = hydrodynamic_gap(position_[k].z() - a, a);
+  double value = resistance::wall_increment(a, gap).perpendicular;
+  const double guess = substrate_geometry_[k].gap;
+  if (guess != position_[k].z() - a && guess > 0 && gap > 0) value += resistance::wall_step_average_increment(a, gap, guess);
+  return value;
+}
+
+StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
+  SubstrateState s{position_[k].z() - radius_[k], 0, 0};
+  if (interactions_.substrate->colloidal)
+    for (const auto& law : laws_) {
+      const forces::PairTerm t = law->switched(substrate_geometry_[k]);
+      s.force += t.force;
+      s.stiffness += t.stiffness;
+    }
+  // The plane stops particles whatever the forces.
+  if (substrate_geometry_[k].gap < 0) {
+    s.force -= forces::constraint_stiffness * substrate_geometry_[k].gap;
+    s.stiffness += forces::constraint_stiffness;
+  }
+  return s;
+}
+
+StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
+  const forces::FreeSurfaceParameters& surface = *interactions_.free_surface;
+  const double a = radius_[k], gap = film_.height_begin - position_[k].z() - a;
+  SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
+  // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
+  if (interactions_.lubrication())
+    s.resistance = resistance::free_surface_increment(a, std::max(gap, surface.roughness)).perpendicular;
+  if (protrusion_guess_[k] > 0) {
+    const forces::SpringForce spring = forces::surface_spring(surface, a, protrusion_guess_[k]);
+    s.force = spring.force;
+    s.stiffness = spring.stiffness;
+  }
+  return s;
+}
+
+void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* rhs) const {
+  const int D = system.unknowns_per_particle();
+  const double mu = liquid_.viscosity, dt = implicit_ ? dt_ : 0;
+  for (int k = topology_.chunks().begin[chunk]; k < topology_.chunks().begin[chunk + 1]; ++k) {
+    const double a = radius_[k], drag = mu * resistance::stokes_drag(a);
+    solve::ParticleTerm t{drag, drag, 0, mu * resistance::stokes_torque(a), mu * resistance::stokes_torque(a)};
+    double* f = rhs + static_cast<std::size_t>(k) * D;
+    for (int d = 0; d < D; ++d) f[d] = 0;
+    if (!external_force_.empty())
+      for (int d = 0; d < 3; ++d) f[d] += external_force_[k][d];
+    f[2] -= drag * film_.absorption;  // (10): relative to the liquid, which moves with -q e_z
+    if (interactions_.gravity)
+      f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
+    if (interactions_.substrate) {
+      if (interactions_.lubrication()) {
+        const resistance::BoundaryScalars w = resistance::wall_increment(a, hydrodynamic_gap(position_[k].z() - a, a));
+        const double perpendicular = mu * wall_resistance(k);
+        t.along += perpendicular;
+        t.across += mu * w.parallel;
+        t.coupling += mu * w.coupling;
+        t.spin_along += mu * w.twist;
+        t.spin_across += mu * w.rolling;
+        if (interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform)
+          f[2] -= perpendicular * film_.absorption;
+      }
+      const SubstrateState s = substrate_state(k);
+      const double stiffness = std::max(s.stiffness, 0.0);
+      f[2] += s.force + (implicit_ ? stiffness * (substrate_geometry_[k].gap - s.gap_begin) : 0);
+      t.along += dt * stiffness;
+    }
+    if (interactions_.free_surface) {
+      const SurfaceState s = surface_state(k);
+      if (interactions_.lubrication()) {
+        const resistance::BoundaryScalars w =
+            resistance::free_surface_increment(a, std::max(s.gap_begin, interactions_.free_surface->roughness));
+        t.across += mu * w.parallel;
+        t.coupling += mu * w.coupling;
+        t.spin_along += mu * w.twist;
+        t.spin_across += mu * w.rolling;
+        t.along += mu * s.resistance;
+        const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
+        f[2] -= mu * s.resistance * (film_.absorption + (squeeze ? 0 : film_.evaporation));
+      }
+      if (s.stiffness > 0) {
+        // protrusion at the end: p1 = z0 + a + dt U_z + roughness - H1
+        const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - film_.height_end;
+        f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
+        t.along += dt_ * s.stiffness;
+      }
+    }
+    system.particle[k] = t;
+  }
+}
+
+void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs) const {
+  const int D = system.unknowns_per_particle();
+  const std::size_t begin = topology_.pair_begin(chunk), end = topology_.pair_begin(chunk + 1);
+  std::vector<double>&force = force_[chunk], &stiffness = stiffness_[chunk];
+  std::fill(force.begin(), force.end(), 0.0);
+  std::fill(stiffness.begin(), stiffness.end(), 0.0);
+  for (const auto& law : laws_) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
+  std::vector<solve::FullPair>& full = system.full[chunk];
+  std::vector<solve::SqueezePair>& squeeze = system.squeeze[chunk];
+  full.clear();
+  squeeze.clear();
+  const double mu = liquid_.viscosity;
+  for (std::size_t p = begin; p < end; ++p) {
+    const auto [i, j] = pairs_[p];
+    const Vec3& n = normal_[p];
+    const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
+    const double f = force[p - begin] + k * (guess - gap_begin_[p]);
+    const std::int32_t target = topology_.target(p);
+    if (f != 0)
+      for (int d = 0; d < 3; ++d) {
+        rhs[static_cast<std::size_t>(i) * D + d] -= f * n[d];
+        rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
+      }
+    const resistance::PairScalars& s = scalars_[p];
+    double viscous = s.squeeze;
+    if (viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
+      const forces::PairGeometry& g = geometry_[p];
+      const double smaller = std::min(g.radius_a, g.radius_b);
+      const double weight = resistance::taper(gap_begin_[p] / smaller, interactions_.hydrodynamics.taper.squeeze_begin,
+                                              interactions_.hydrodynamics.taper.squeeze_end);
+      viscous += weight * resistance::squeeze_step_average_increment(g.reduced_radius(), gap_begin_[p], guess);
+    }
+    const double total = mu * viscous + dt_ * k;
+    if (s.shear > 0) {
+      const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);
+      full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * gap_begin_[p], radius_[j] + 0.5 * gap_begin_[p],
+                      total, mu * o.twist, mu * o.a, mu * o.b, mu * o.c});
+    } else if (total > 0) {
+      squeeze.push_back({i, j, target, {n[0], n[1], n[2]}, total});
+    }
+  }
+}
+
+void StepAssembly::build(solve::PairSystem& system) const {
+  const std::size_t n = radius_.size();
+  const int chunks = topology_.chunks().count();
+  system.rotation = interactions_.rotation();
+  system.topology = &topology_;
+  system.particle.resize(n);
+  system.full.resize(chunks);
+  system.squeeze.resize(chunks);
+  const std::size_t D = system.unknowns_per_particle();
+  std::vector<double> sum((n + topology_.halo_count()) * D);
+#pragma omp parallel
+  {
+#pragma omp for schedule(static)
+    for (int c = 0; c < chunks; ++c) {
+      for (std::size_t h = (n + topology_.halo_begin(c)) * D; h < (n + topology_.halo_begin(c + 1)) * D; ++h) sum[h] = 0;
+      particle_terms(c, system, sum.data());
+      pair_terms(c, system, sum.data());
+    }
+#pragma omp for schedule(static)
+    for (int c = 0; c < chunks; ++c)
+      for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k)
+        for (const std::int32_t* slot = topology_.slots_begin(k); slot != topology_.slots_end(k); ++slot)
+          for (std::size_t d = 0; d < D; ++d) sum[k * D + d] += sum[(n + *slot) * D + d];
+  }
+  sum.resize(n * D);
+  system.right_hand_side = std::move(sum);
+}
+
+void StepAssembly::gap_velocities(const std::vector<double>& u, std::vector<double>& rate) const {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  rate.resize(pairs_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [i, j] = pairs_[p];
+    double sum = 0;
+    for (int d = 0; d < 3; ++d) sum += normal_[p][d] * (u[j * D + d] - u[i * D + d]);
+    rate[p] = sum;
+  }
+}
+
+GapCheck StepAssembly::refine(const std::vector<double>& u) {
+  const std::size_t D = interactions_.rotation() ? 6 : 3, n = radius_.size();
+  const int chunks = topology_.chunks().count();
+  std::vector<GapCheck> checks(chunks);
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c) {
+    GapCheck& check = checks[c];
+    check.smallest_gap = std::numeric_limits<double>::infinity();
+    for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
+      const auto [i, j] = pairs_[p];
+      Vec3 d = normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]);
+      for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
+      const double gap = d.norm() - radius_[i] - radius_[j];
+      if (gap < check.smallest_gap) {
+        check.smallest_gap = gap;
+        check.worst_pair = p;
+      }
+      double& guess = geometry_[p].gap;
+      // A pair that overlapped from the start has no gap to keep open; its forces part it.
+      if (gap_begin_[p] <= 0 || !implicit_) continue;
+      if (off_guess(gap, guess, guess != gap_begin_[p])) {
+        guess = next_guess(gap, guess);
+        check.refine = true;
+      }
+    }
+    for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
+      const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
+      if (interactions_.substrate) {
+        const double gap = z - a, begin = position_[k].z() - a;
+        double& guess = substrate_geometry_[k].gap;
+        if (interactions_.lubrication() && begin > 0) {
+          if (off_guess(gap, guess, guess != begin)) {
+            guess = next_guess(gap, guess);
+            check.refine = true;
+          }
+        } else if ((gap < 0) != (guess < 0)) {
+          guess = gap;
+          check.refine = true;
+        }
+      }
+      if (interactions_.free_surface) {
+        const double protrusion = z + a + interactions_.free_surface->roughness - film_.height_end;
+        protrusion_end_[k] = protrusion;
+        double& guess = protrusion_guess_[k];
+        if (guess > 0) {
+          const forces::SpringForce spring = forces::surface_spring(*interactions_.free_surface, a, guess);
+          const double taken = spring.force + spring.stiffness * (protrusion - guess);
+          if (taken < 0) {
+            guess = 0;  // the surface lets go
+            check.refine = true;
+          } else {
+            const double true_force = forces::surface_spring(*interactions_.free_surface, a, protrusion).force;
+            // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle.
+            if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4) {
+              guess = std::max(protrusion, 1e-12);
+              check.refine = true;
+            }
+          }
+        } else if (protrusion > 0) {
+          guess = 1e-12;  // caught: on the stiff line, whose slope is all that counts
+          check.refine = true;
+        }
+      }
+    }
+  }
+  GapCheck all = checks[0];
+  for (const GapCheck& check : checks) {
+    all.refine = all.refine || check.refine;
+    if (check.smallest_gap < all.smallest_gap) {
+      all.smallest_gap = check.smallest_gap;
+      all.worst_pair = check.worst_pair;
+    }
+  }
+  (void)n;
+  return all;
+}
+
+BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u) const {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  const double mu = liquid_.viscosity;
+  BoundaryPressures total;
+  for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
+    const double uz = u[k * D + 2];
+    if (interactions_.free_surface) {
+      const SurfaceState s = surface_state(k);
+      const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
+      total.surface += mu * s.resistance * (uz + film_.absorption + (squeeze ? 0 : film_.evaporation));
+      if (s.stiffness > 0) {
+        total.surface += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
+        ++total.contacts;
+      }
+    }
+    if (interactions_.substrate) {
+      const SubstrateState s = substrate_state(k);
+      const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
+      total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - substrate_geometry_[k].gap);
+      const bool uniform = interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform;
+      if (interactions_.lubrication()) total.substrate -= mu * wall_resistance(k) * (uz + (uniform ? film_.absorption : 0));
+    }
+  }
+  total.surface /= cell_.area();
+  total.substrate /= cell_.area();
+  return total;
+}
+
+std::vector<double> StepAssembly::protrusions() const {
+  std::vector<double> result(order_.size(), 0.0);
+  if (interactions_.free_surface)
+    for (std::size_t k = 0; k < order_.size(); ++k)
+      // A held particle stays held until the force would pull; a free one starts the next step free.
+      result[order_[k]] = protrusion_guess_[k] > 0 ? std::max(protrusion_end_[k], 1e-12) : 0;
+  return result;
+}
+
+double StepAssembly::pair_force(std::size_t p) const {
+  double force = 0;
+  for (const auto& law : laws_) force += law->switched(geometry_[p]).force;
+  return force;
+}
+
+}  // namespace pigment::assembly

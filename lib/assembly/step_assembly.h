@@ -1,0 +1,102 @@
+#pragma once
+// The linear system of one step: (R + dt K) U = F, built at positions x0 for a step of length dt.
+//
+// Every term that is stiff in a gap is taken at the end of the step, linearised about a guess of that gap: the force as
+// f(h*) - k (h1 - h*), k its stiffness where it is positive, the singular squeeze resistance as its average from h0 to h*.
+// The first guess is the gap at the beginning; a step in which some gap closes quickly, or the free surface catches or
+// releases particles, is solved again with the gaps that came out (refine). The averaged resistance diverges as h* -> 0, so
+// that no gap crosses zero.
+#include <memory>
+#include <vector>
+
+#include "assembly/interactions.h"
+#include "model/particles.h"
+#include "neighbours/neighbour_list.h"
+#include "solve/pair_system.h"
+
+namespace pigment::assembly {
+
+// The surroundings of a step, constant or averaged over it. Velocities in um/ms, upwards positive.
+struct Film {
+  double height_begin = 0, height_end = 0;  // of the free surface, um; unused without one
+  double absorption = 0;                    // q: the liquid moves with -q e_z
+  double evaporation = 0;                   // e
+};
+
+// Forces between layer and boundaries, pN/um^2 (force per area), upwards on the substrate's side counted as pressure.
+struct BoundaryPressures {
+  double surface = 0;    // what the free surface presses with: spring and hydrodynamic
+  double substrate = 0;  // what the substrate carries: colloidal and hydrodynamic
+  int contacts = 0;      // particles held by the surface
+};
+
+struct GapCheck {
+  bool refine = false;         // solve again
+  double smallest_gap = 0;     // at the end of the step, um (pairs)
+  std::size_t worst_pair = 0;  // index into the neighbour list's pairs
+  double gap_velocity_error = 0;  // set by the stepper
+};
+
+class StepAssembly {
+ public:
+  // Arrays of the particles in engine order follow from list.order; species potentials from interactions.
+  StepAssembly(const Interactions&, const Particles&, const Cell&, const neighbours::NeighbourList&);
+
+  // Geometry at the beginning of a step. position: file order; force: external (Brownian) force a particle, file order, or
+  // empty; protrusion: guess of each particle's protrusion through the free surface at the end of the step, file order.
+  void begin(const Vec3Array& position, const Film&, const Liquid&, double dt, bool implicit, const Vec3Array& force,
+             const std::vector<double>& protrusion);
+  // Fills the system for the current guesses.
+  void build(solve::PairSystem&) const;
+  // Judges a solution (engine order) and moves the guesses towards it.
+  GapCheck refine(const std::vector<double>& solution);
+
+  const solve::PairTopology& topology() const { return topology_; }
+  std::size_t pair_count() const { return pairs_.size(); }
+  // Rate of change of every pair's gap for a solution, um/ms; and the gaps at the beginning.
+  void gap_velocities(const std::vector<double>& solution, std::vector<double>& rate) const;
+  const std::vector<double>& gaps() const { return gap_begin_; }
+  BoundaryPressures boundary_pressures(const std::vector<double>& solution) const;
+  // Protrusion of every particle at the end of the step for the accepted solution, file order: next step's guess.
+  std::vector<double> protrusions() const;
+  const neighbours::IndexPair& pair(std::size_t p) const { return pairs_[p]; }  // engine indices
+  double pair_force(std::size_t p) const;  // colloidal, at the current guess
+
+ private:
+  struct SurfaceState {
+    double gap_begin, resistance, force, stiffness, anchor;  // force + stiffness (p1 - anchor)
+  };
+  struct SubstrateState {
+    double gap_begin, force, stiffness;
+  };
+  void particle_terms(int chunk, solve::PairSystem&, double* rhs) const;
+  void pair_terms(int chunk, solve::PairSystem&, double* rhs) const;
+  SurfaceState surface_state(int k) const;
+  SubstrateState substrate_state(int k) const;
+  double wall_resistance(int k) const;
+
+  const Interactions& interactions_;
+  Cell cell_;
+  const std::vector<std::int32_t>& order_;
+  const std::vector<neighbours::IndexPair>& pairs_;
+  solve::PairTopology topology_;
+  std::vector<double> radius_, mass_;      // engine order
+  std::vector<forces::PairGeometry> geometry_;            // one a pair; gap holds the guess
+  std::vector<forces::PairGeometry> substrate_geometry_;  // one a particle
+
+  // of the current step
+  Film film_;
+  Liquid liquid_{};
+  double dt_ = 0;
+  bool implicit_ = true;
+  std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
+  double prepared_temperature_ = -1;
+  std::vector<Vec3> position_, external_force_;
+  std::vector<Vec3> normal_;               // one a pair
+  std::vector<double> gap_begin_;          // one a pair
+  std::vector<double> protrusion_guess_, protrusion_end_;
+  mutable std::vector<std::vector<double>> force_, stiffness_;  // one array a chunk
+  mutable std::vector<resistance::PairScalars> scalars_;        // at gap_begin_, one a pair
+};
+
+}  // namespace pigment::assembly

@@ -1,0 +1,58 @@
+#include "stepping/run_state.h"
+
+namespace pigment::stepping {
+
+namespace {
+
+std::vector<double> flat(const Vec3Array& v) {
+  std::vector<double> f;
+  f.reserve(3 * v.size());
+  for (const Vec3& x : v) f.insert(f.end(), {x.x(), x.y(), x.z()});
+  return f;
+}
+Vec3Array vectors(const std::vector<double>& f) {
+  Vec3Array v(f.size() / 3);
+  for (std::size_t k = 0; k < v.size(); ++k) v[k] = Vec3(f[3 * k], f[3 * k + 1], f[3 * k + 2]);
+  return v;
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<double>> RunState::arrays() const {
+  return {{"scalars", {time, preferred_step, last_step, frame_height}},
+          {"position", flat(position)},
+          {"velocity", flat(velocity)},
+          {"angular_velocity", flat(angular_velocity)},
+          {"previous_velocity", flat(previous_velocity)},
+          {"previous_angular_velocity", flat(previous_angular_velocity)},
+          {"protrusion", protrusion},
+          {"list_reference", flat(list_reference)},
+          {"frame_position", flat(frame_position)},
+          {"last_observables", last_observables}};
+}
+
+std::map<std::string, std::vector<std::int64_t>> RunState::integers() const { return {{"counters", {step, frame}}}; }
+
+RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
+                        const std::map<std::string, std::vector<std::int64_t>>& i) {
+  RunState s;
+  const auto& scalars = a.at("scalars");
+  s.time = scalars.at(0);
+  s.preferred_step = scalars.at(1);
+  s.last_step = scalars.at(2);
+  s.frame_height = scalars.at(3);
+  s.step = i.at("counters").at(0);
+  s.frame = i.at("counters").at(1);
+  s.position = vectors(a.at("position"));
+  s.velocity = vectors(a.at("velocity"));
+  s.angular_velocity = vectors(a.at("angular_velocity"));
+  s.previous_velocity = vectors(a.at("previous_velocity"));
+  s.previous_angular_velocity = vectors(a.at("previous_angular_velocity"));
+  s.protrusion = a.at("protrusion");
+  s.list_reference = vectors(a.at("list_reference"));
+  s.frame_position = vectors(a.at("frame_position"));
+  s.last_observables = a.at("last_observables");
+  return s;
+}
+
+}  // namespace pigment::stepping

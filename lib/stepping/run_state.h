@@ -1,0 +1,35 @@
+#pragma once
+// Everything that can influence the rest of a run and is not an input: what a checkpoint holds.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace pigment::stepping {
+
+struct RunState {
+  std::int64_t step = 0;
+  std::int64_t frame = 0;           // frames written so far; the next output time is frame * every
+  double time = 0;                  // ms
+  double preferred_step = 0;        // ms; what the controller would take next
+  double last_step = 0;             // ms; 0: none yet
+  Vec3Array position;               // um
+  Vec3Array velocity;               // um/ms, of the last step
+  Vec3Array angular_velocity;       // 1/ms; zero without rotation
+  Vec3Array previous_velocity;      // of the step before: extrapolated for the next starting guess
+  Vec3Array previous_angular_velocity;
+  std::vector<double> protrusion;   // guess for the free surface, um
+  Vec3Array list_reference;         // positions at which the neighbour list was made
+  Vec3Array frame_position;         // positions at the last output frame: immobility is judged over a frame
+  double frame_height = 0;          // H then
+  std::vector<double> last_observables;
+
+  std::map<std::string, std::vector<double>> arrays() const;
+  std::map<std::string, std::vector<std::int64_t>> integers() const;
+  static RunState from(const std::map<std::string, std::vector<double>>&,
+                       const std::map<std::string, std::vector<std::int64_t>>&);
+};
+
+}  // namespace pigment::stepping

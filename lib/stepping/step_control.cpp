@@ -1,0 +1,26 @@
+#include "stepping/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pigment::stepping {
+
+double gap_scale(const assembly::Interactions& interactions, const Liquid& liquid) {
+  for (const auto& [name, law] : interactions.colloidal)
+    if (name == "electrostatic") return law->prepare(liquid)->cutoff_gap() / 20;  // its cutoff is 20 Debye lengths
+  return 0.005;
+}
+
+double brownian_step(const Particles& particles, const Liquid& liquid, double scale) {
+  const double smallest = *std::min_element(particles.radius.begin(), particles.radius.end());
+  const double diffusivity = liquid.thermal_energy() / (6 * std::numbers::pi * liquid.viscosity * smallest);
+  return 4 * scale * scale / (2 * diffusivity);
+}
+
+double next_step(double step, double error) {
+  const double wanted = error > 0 ? 0.9 / std::sqrt(error) : 1.5;
+  return step * std::clamp(wanted, 0.3, 1.5);
+}
+
+}  // namespace pigment::stepping

@@ -1,0 +1,22 @@
+#pragma once
+// How long a step may be.
+//
+// Deterministic scenes: the error of one linearly implicit Euler step in a gap is estimated by dt/2 |dgap/dt - dgap/dt of the
+// last step|, in units of gap + Debye length (the lengths over which lubrication and the double layer change); its
+// root mean square over the near pairs is held at the tolerance.
+// Brownian scenes: the step is fixed by the noise before it is drawn: the smallest free particle moves by at most twice the
+// Debye length (root mean square a component), and the boundaries by a fifth of it. A step chosen after the noise is known
+// would bias it.
+#include "assembly/interactions.h"
+#include "model/particles.h"
+
+namespace pigment::stepping {
+
+// The scene's Debye length, um; 5 nm where it has no electrostatic law.
+double gap_scale(const assembly::Interactions&, const Liquid&);
+// ms.
+double brownian_step(const Particles&, const Liquid&, double gap_scale);
+// Next step from the last one's error in units of the tolerance: local error of a first-order method goes with dt^2.
+double next_step(double step, double error);
+
+}  // namespace pigment::stepping
