@@ -18,6 +18,7 @@ SteppingParameters read_stepping(config::Node node) {
   p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"until", P::StopWhen::Until}}, "immobile");
   p.solver_tolerance = node.number("solver_tolerance", 1e-5, config::strictly_between(0, 0.1));
   p.immobile_rate = node.number("immobile_rate", 1e-2, config::strictly_between(0, 1));
+  p.protruding_limit = node.number("protruding_limit", 1e-2, config::strictly_between(0, 1));
   return p;
 }
 

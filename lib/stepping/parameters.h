@@ -15,7 +15,8 @@ struct SteppingParameters {
   enum class StopWhen { Immobile, Until };
   StopWhen stop_when = StopWhen::Until;
   double solver_tolerance = 1e-5;    // relative residual of each solve
-  double immobile_rate = 1e-2;       // non-affine rms of U_z over |dH/dt|
+  double immobile_rate = 1e-2;       // immobile: non-affine rms of the vertical motion over a frame is below this share of |dH|
+  double protruding_limit = 1e-2;    // first critical concentration: more than this share of the solids is above the surface
 };
 SteppingParameters read_stepping(config::Node);
 

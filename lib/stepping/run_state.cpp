@@ -28,7 +28,7 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
           {"protrusion", protrusion},
           {"list_reference", flat(list_reference)},
           {"frame_position", flat(frame_position)},
-          {"last_observables", last_observables}};
+          {"interval", interval}};
 }
 
 std::map<std::string, std::vector<std::int64_t>> RunState::integers() const { return {{"counters", {step, frame}}}; }
@@ -51,7 +51,7 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.protrusion = a.at("protrusion");
   s.list_reference = vectors(a.at("list_reference"));
   s.frame_position = vectors(a.at("frame_position"));
-  s.last_observables = a.at("last_observables");
+  s.interval = a.at("interval");
   return s;
 }
 

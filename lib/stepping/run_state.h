@@ -24,7 +24,7 @@ struct RunState {
   Vec3Array list_reference;         // positions at which the neighbour list was made
   Vec3Array frame_position;         // positions at the last output frame: immobility is judged over a frame
   double frame_height = 0;          // H then
-  std::vector<double> last_observables;
+  std::vector<double> interval;     // sums since the last frame (stepping/consolidate.cpp)
 
   std::map<std::string, std::vector<double>> arrays() const;
   std::map<std::string, std::vector<std::int64_t>> integers() const;

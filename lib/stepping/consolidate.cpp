@@ -1,0 +1,150 @@
+#include "stepping/consolidate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/layer_measures.h"
+
+namespace pigment::stepping {
+
+namespace {
+
+// What accumulates between two frames; kept in RunState::interval, so that a resumed run has it.
+enum Sum { Steps, Iterations, Duration, SurfaceImpulse, SubstrateImpulse, SmallestGap, Contacts, SumCount };
+
+std::vector<double> empty_interval() {
+  std::vector<double> interval(SumCount, 0.0);
+  interval[SmallestGap] = std::numeric_limits<double>::max();
+  return interval;
+}
+
+void add_step(std::vector<double>& interval, const StepReport& report) {
+  interval[Steps] += 1;
+  interval[Iterations] += report.iterations;
+  interval[Duration] += report.step;
+  interval[SurfaceImpulse] += report.step * report.pressures.surface;
+  interval[SubstrateImpulse] += report.step * report.pressures.substrate;
+  interval[SmallestGap] = std::min(interval[SmallestGap], report.smallest_gap);
+  interval[Contacts] = report.pressures.contacts;
+}
+
+// Non-affine part of the vertical motion since the last frame, over the surface's own: 0 is a layer that shrinks evenly.
+double non_affine_rate(const RunState& state, double height) {
+  const double fall = std::abs(height - state.frame_height);
+  if (fall <= 0) return 0;
+  std::vector<double> displacement(state.position.size());
+  for (std::size_t k = 0; k < displacement.size(); ++k) displacement[k] = state.position[k].z() - state.frame_position[k].z();
+  const int slices = std::clamp(static_cast<int>(state.position.size() / 50), 1, 30);
+  return non_affine_motion(state.position, displacement, height, slices).rms / fall;
+}
+
+// Smallest gap of any pair; the cell's width where there is none.
+double smallest_gap(const Problem& problem, const RunState& state) {
+  const auto& radius = problem.particles.radius;
+  double gap = std::numeric_limits<double>::max();
+  double reach = 0.1 * *std::min_element(radius.begin(), radius.end());
+  for (; gap == std::numeric_limits<double>::max() && reach < problem.cell.width_x; reach *= 4)
+    for (const auto& [i, j] : neighbours::find_pairs(problem.cell, state.position, radius, {0, reach, 0}))
+      gap = std::min(gap, problem.cell.minimum_image(state.position[j] - state.position[i]).norm() - radius[i] - radius[j]);
+  return gap == std::numeric_limits<double>::max() ? problem.cell.width_x : gap;
+}
+
+// Pressures, step and iterations are means over the frame's interval, the smallest gap its minimum; the rest is of the instant.
+std::vector<double> observe(const Problem& problem, const RunState& state, double height) {
+  const auto& radius = problem.particles.radius;
+  const std::vector<double>& sum = state.interval;
+  const bool surface = problem.interactions.free_surface.has_value();
+  const double thickness = surface ? height : height_below_which(1, state.position, radius);
+  double solid_mass = 0;
+  for (double m : problem.particles.mass) solid_mass += m;
+  // Below the surface; without one, below the top of the highest particle.
+  const double liquid_volume = std::max(0.0, problem.cell.area() * thickness - solids_volume(radius));
+  const bool stepped = sum[Steps] > 0;
+  return {thickness,
+          height_below_which(0.95, state.position, radius),
+          height_below_which(0.99, state.position, radius),
+          solid_mass / (solid_mass + problem.interactions.liquid.density * liquid_volume),
+          mass_centre(state.position, radius, problem.particles.mass),
+          stepped ? sum[SurfaceImpulse] / sum[Duration] : 0.0,
+          stepped ? sum[SubstrateImpulse] / sum[Duration] : 0.0,
+          surface ? protruding_fraction(height, state.position, radius) : 0.0,
+          stepped ? sum[SmallestGap] : smallest_gap(problem, state),
+          stepped ? sum[Duration] / sum[Steps] : 0.0,
+          stepped ? sum[Iterations] / sum[Steps] : 0.0,
+          sum[Contacts],
+          surface ? non_affine_rate(state, height) : 0.0};
+}
+
+}  // namespace
+
+const std::vector<ObservableName>& observable_names() {
+  static const std::vector<ObservableName> names = {
+      {Observable::Thickness, "thickness", Dimension::Length},
+      {Observable::Z95, "z95", Dimension::Length},
+      {Observable::Z99, "z99", Dimension::Length},
+      {Observable::SolidsMassFraction, "solids_mass_fraction", Dimension::Number},
+      {Observable::MassCentre, "mass_centre", Dimension::Length},
+      {Observable::SurfacePressure, "surface_pressure", Dimension::Pressure},
+      {Observable::SubstratePressure, "substrate_pressure", Dimension::Pressure},
+      {Observable::ProtrudingFraction, "protruding_fraction", Dimension::Number},
+      {Observable::MinimumGap, "minimum_gap", Dimension::Length},
+      {Observable::StepSize, "step_size", Dimension::Time},
+      {Observable::SolverIterations, "solver_iterations", Dimension::Number},
+      {Observable::Contacts, "contacts", Dimension::Number},
+      {Observable::NonAffineRate, "non_affine_rate", Dimension::Number},
+  };
+  return names;
+}
+
+std::string consolidate(const Problem& problem, const RunSettings& settings, RunState& state, const RunCallbacks& callbacks) {
+  Stepper stepper(problem, state);
+  const bool surface = problem.interactions.free_surface.has_value();
+  const auto store_frame = [&](double height) {
+    const std::vector<double> observables = observe(problem, state, height);
+    ++state.frame;
+    callbacks.on_frame(state, height, observables);
+    state.frame_position = state.position;
+    state.frame_height = height;
+    state.interval = empty_interval();
+    return observables;
+  };
+  if (state.frame == 0) {
+    state.interval = empty_interval();
+    store_frame(stepper.height_at(0));
+  }
+  // Frame k stands at k * every, computed as a product so that no rounding builds up; the last one at `until`.
+  for (;;) {
+    if (state.time >= settings.until) return "until";
+    const double next_frame = std::min(static_cast<double>(state.frame) * settings.output_every, settings.until);
+    if (state.interval[Steps] > 0 || state.frame > 1)
+      if (callbacks.on_step && callbacks.on_step(state)) return "interrupted";
+    // Rounding may leave a sliver that no step can resolve: the frame is then reached.
+    const double left = next_frame - state.time;
+    if (left > 1e-12 * settings.until) {
+      const StepReport report = stepper.advance(state, left);
+      if (report.step == left) state.time = next_frame;
+      add_step(state.interval, report);
+      if (callbacks.on_progress)
+        callbacks.on_progress(state.time / settings.until,
+                              fmt::format("t {:.4f} s, dt {:.3g} ms, {} iterations{}", state.time * 1e-3, report.step, report.iterations,
+                                          surface ? fmt::format(", surface {:.3g} kPa", report.pressures.surface * 1e-3) : ""));
+    } else {
+      state.time = next_frame;
+    }
+    if (state.time < next_frame) continue;
+    const double height = stepper.height_at(state.time);
+    const std::vector<double> observables = store_frame(height);
+    if (!surface) continue;
+    if (observables[static_cast<int>(Observable::ProtrudingFraction)] > problem.stepping.protruding_limit)
+      return "first_critical_concentration";
+    // The first interval tells more of the packing than of the run.
+    if (problem.stepping.stop_when == SteppingParameters::StopWhen::Immobile && state.frame > 2 &&
+        observables[static_cast<int>(Observable::NonAffineRate)] < problem.stepping.immobile_rate)
+      return "immobile";
+  }
+}
+
+}  // namespace pigment::stepping
