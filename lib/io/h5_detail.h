@@ -20,7 +20,7 @@ inline Handle simple_space(const Extent& shape) {
   const std::vector<hsize_t> dims(shape.begin(), shape.end());
   return {H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose};
 }
-Handle text_type(std::size_t length);  // fixed length, or H5T_VARIABLE
+Handle text_type(std::size_t length, bool ascii = false);  // fixed length, or H5T_VARIABLE; else UTF-8
 Type type_of(hid_t datatype);
 
 }  // namespace pigment::io::h5

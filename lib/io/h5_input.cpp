@@ -128,10 +128,10 @@ std::string reason() {
   return why;
 }
 
-Handle text_type(std::size_t length) {
+Handle text_type(std::size_t length, bool ascii) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.id(), length);
-  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  H5Tset_cset(type.id(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
   if (length != H5T_VARIABLE) H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
   return type;
 }

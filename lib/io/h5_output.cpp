@@ -188,7 +188,9 @@ void OutputFile::raw_attribute(const std::string& object, const std::string& nam
 }
 
 void OutputFile::attribute(const std::string& object, const std::string& name, const std::string& text) {
-  const Handle type = text_type(H5T_VARIABLE), space = simple_space({});
+  // H5MD wants units in ASCII.
+  const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  const Handle type = text_type(H5T_VARIABLE, ascii), space = simple_space({});
   const char* value = text.c_str();
   raw_attribute(object, name, type.id(), space.id(), &value);
 }
