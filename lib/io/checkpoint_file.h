@@ -2,6 +2,7 @@
 // NAME.checkpoint.h5 beside the output NAME.h5: named arrays of doubles, exact to the bit, and the hashes of what they
 // were made from. The last two are kept (NAME.checkpoint.h5 and .checkpoint.previous.h5), so that a file cut off in
 // mid-write never costs the run.
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,7 +19,7 @@ struct Checkpoint {
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& output);
 void write_checkpoint(const std::filesystem::path& output, const Checkpoint&);
-// The newest whole checkpoint; nothing where there is none. One made from other inputs is renamed
+// The newest whole checkpoint (a damaged one is passed over with a warning); nothing where there is none. One made from other inputs is renamed
 // NAME.checkpoint.old.h5, a warning says which input differs, and nothing is returned.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& output,
                                           const std::map<std::string, std::string>& inputs);
