@@ -236,15 +236,6 @@ void Node::accept_word(const std::string& key, const std::string& word) {
   data_->record(key, word);
 }
 
-void Node::pass_through(const std::string& key) {
-  data_->mark_read(key);
-  const Tree* value = data_->find(key);
-  if (value == nullptr) return;
-  Record& r = data_->record_entry(key);
-  r.kind = Record::Kind::Verbatim;
-  r.verbatim = *value;
-}
-
 Node Node::block(const std::string& key) {
   data_->mark_read(key);
   Record& r = data_->record_entry(key);

@@ -64,9 +64,6 @@ class Node {
   // Reads a key as this word and records it (after is_word said yes, or as a default).
   void accept_word(const std::string& key, const std::string& word);
 
-  // Takes a key as it is written, unchecked. Temporary: for blocks whose reader does not exist yet.
-  void pass_through(const std::string& key);
-
   // A nested block. block(): an absent one reads as empty, all its defaults apply (and required keys are errors).
   Node block(const std::string& key);
   std::optional<Node> optional_block(const std::string& key);

@@ -172,7 +172,6 @@ Tree Node::Data::resolved(const std::filesystem::path* folder) const {
         entry.kind = Tree::Kind::List;
         for (const auto& block : r.blocks) entry.children.push_back(block->resolved(folder));
         break;
-      case Record::Kind::Verbatim: entry = r.verbatim; break;
     }
     out.children.push_back(std::move(entry));
   }

@@ -33,14 +33,13 @@ struct Source {
 
 // One value that was read: a scalar, a list of scalars, a block, or a list of blocks.
 struct Record {
-  enum class Kind { Scalar, List, Block, Blocks, Verbatim };
+  enum class Kind { Scalar, List, Block, Blocks };
   std::string key;
   Kind kind = Kind::Scalar;
   std::vector<std::string> texts;
   bool is_file = false;
   bool written = true;  // by the scene; a default block without values is left out of the resolved scene
   std::vector<std::shared_ptr<Node::Data>> blocks;
-  Tree verbatim;
 };
 
 struct Node::Data {

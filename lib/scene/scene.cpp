@@ -52,6 +52,17 @@ void check_dewatering(config::Node& root, const Scene& scene) {
   dewatering::check_dewatering(root.block("dewatering"), *scene.dewatering, coating_of(scene));
 }
 
+// Without a surface the top is a reservoir: there is nothing that could evaporate. A scene that only says how a layer
+// dewaters is not asked: its curve may serve another one.
+void check_surface(config::Node& root, const Scene& scene, const std::string& stage_name) {
+  if (!scene.dewatering || scene.free_surface || !scene.dewatering->evaporates()) return;
+  if (stage_name == "consolidate" || !scene.colloidal.empty() || scene.brownian || scene.gravity)
+    root.block("dewatering")
+        .error("evaporation",
+               "the scene has no free_surface, so nothing can evaporate; write e.g. \"free_surface: {model: spring}\", or "
+               "\"strategy: ABS\" here");
+}
+
 }  // namespace
 
 dewatering::Coating coating_of(const Scene& scene) {
@@ -69,14 +80,22 @@ Scene read_scene(config::Document& document, const std::string& stage_name) {
   scene.species = read_species(root);
   scene.packing = packing::read_packing(root.block("packing"));
   scene.liquid = read_liquid(root.block("liquid"));
-  // TEMPORARY: taken as written until these rooms have their readers.
-  for (const char* key : {"hydrodynamics", "colloidal", "brownian", "substrate", "free_surface", "gravity",
-                          "stepping", "output"})
-    root.pass_through(key);
+  scene.hydrodynamics = resistance::read_hydrodynamics(root.block("hydrodynamics"));
+  if (auto block = root.optional_block("colloidal")) scene.colloidal = forces::read_colloidal(*block);
+  if (auto block = root.optional_block("brownian")) scene.brownian = forces::read_brownian(*block);
+  if (root.is_word("substrate", "none"))
+    root.accept_word("substrate", "none");
+  else
+    scene.substrate = forces::read_substrate(root.block("substrate"));
+  if (auto block = root.optional_block("free_surface")) scene.free_surface = forces::read_free_surface(*block);
+  if (auto block = root.optional_block("gravity")) scene.gravity = forces::read_gravity(*block);
   if (auto block = root.optional_block("dewatering")) scene.dewatering = dewatering::read_dewatering(*block);
+  scene.stepping = stepping::read_stepping(root.block("stepping"));
+  scene.output = stepping::read_output(root.block("output"));
   scene.analysis = analysis::read_analysis(root.block("analysis"));
   check_layer(root, scene);
   check_dewatering(root, scene);
+  check_surface(root, scene, stage_name);
   document.check();
   return scene;
 }

@@ -8,11 +8,14 @@
 #include "analysis/parameters.h"
 #include "config/node.h"
 #include "dewatering/parameters.h"
+#include "forces/parameters.h"
 #include "model/layer_parameters.h"
 #include "model/liquid.h"
 #include "model/species.h"
 #include "packing/parameters.h"
+#include "resistance/parameters.h"
 #include "scene/stages.h"
+#include "stepping/parameters.h"
 
 namespace pigment::scene {
 
@@ -22,7 +25,15 @@ struct Scene {
   std::vector<Species> species;  // the block `particles`; empty where it is absent
   packing::PackingParameters packing;
   LiquidParameters liquid;
+  resistance::HydrodynamicsParameters hydrodynamics;
+  std::vector<forces::ColloidalLaw> colloidal;
+  std::optional<forces::BrownianParameters> brownian;
+  std::optional<forces::SubstrateParameters> substrate;  // nothing: `substrate: none`
+  std::optional<forces::FreeSurfaceParameters> free_surface;
+  std::optional<forces::GravityParameters> gravity;
   std::optional<dewatering::DewateringParameters> dewatering;
+  stepping::SteppingParameters stepping;
+  stepping::OutputParameters output;
   analysis::Parameters analysis;
 };
 
