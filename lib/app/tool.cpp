@@ -84,6 +84,10 @@ void CommandLine::option(const std::string& flags, std::string& variable, const 
   data->app.add_option(flags, variable, help)->type_name("TEXT");
 }
 
+void CommandLine::option(const std::string& flags, std::vector<std::string>& variable, const std::string& help) {
+  data->app.add_option(flags, variable, help)->type_name("TEXT")->expected(1)->take_all()->allow_extra_args(false);
+}
+
 void CommandLine::option(const std::string& flags, double& variable, const std::string& help) {
   data->app.add_option(flags, variable, help)
       ->type_name("NUMBER")

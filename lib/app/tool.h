@@ -27,6 +27,7 @@ class CommandLine {
   void positional(const std::string& name, std::vector<path>& variable, const std::string& help);
   void option(const std::string& flags, path& variable, const std::string& help, bool required = false);
   void option(const std::string& flags, std::string& variable, const std::string& help);
+  void option(const std::string& flags, std::vector<std::string>& variable, const std::string& help);  // repeatable
   void option(const std::string& flags, double& variable, const std::string& help);
   void option(const std::string& flags, int& variable, const std::string& help);
   void flag(const std::string& flags, bool& variable, const std::string& help);

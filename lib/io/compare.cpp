@@ -51,12 +51,13 @@ class Numbers {
   void add(double a, double b) {
     const std::size_t index = count_++;
     if (a == b || (nan_equal_ && std::isnan(a) && std::isnan(b))) return;
-    const double allowed = tolerance_.absolute + tolerance_.relative * std::max(std::abs(a), std::abs(b));
+    double allowed = tolerance_.absolute + tolerance_.relative * std::max(std::abs(a), std::abs(b));
     double difference = std::abs(a - b);
     if (std::isfinite(a) && std::isfinite(b)) {
       if (difference <= allowed) return;
     } else {
-      difference = std::numeric_limits<double>::infinity();  // not-a-number or infinite on one side only, or not asked for
+      difference = std::numeric_limits<double>::infinity();  // no tolerance covers what is not finite
+      allowed = 0;
     }
     if (differing_++ == 0 || difference > largest_) largest_ = difference, at_ = index, a_ = a, b_ = b, allowed_ = allowed;
   }
@@ -157,7 +158,7 @@ class Comparer {
         }
         Numbers numbers(tolerance_of(object), options_.nan_equal);
         for (std::size_t i = 0; i < number_a->size(); ++i) numbers.add((*number_a)[i], (*number_b)[i]);
-        differ(numbers.report(path, {number_a->size()}));
+        differ(numbers.report(path, number_a->size() == 1 ? h5::Extent{} : h5::Extent{number_a->size()}));
       } else {
         const Class class_a = class_of(a_.attribute_type(object, name)), class_b = class_of(b_.attribute_type(object, name));
         differ(fmt::format("{}: {} against {}", path, name_of(class_a), name_of(class_b)));

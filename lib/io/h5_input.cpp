@@ -123,7 +123,7 @@ const char* name(Type type) {
 std::string reason() {
   std::string why = "HDF5 gives no reason";
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &why);
-  if (why.find("lock") != std::string::npos)
+  if (why.find("unable to lock") != std::string::npos)
     why += "; another program has the file open, or the file system has no locks (then set HDF5_USE_FILE_LOCKING=FALSE)";
   return why;
 }
@@ -162,7 +162,7 @@ InputFile::InputFile(std::filesystem::path name) : name_(std::move(name)) {
   if (file_) return;
   const std::string why = reason();
   const bool recognised = H5Fis_hdf5(name_.c_str()) > 0;
-  const bool locked = why.find("lock") != std::string::npos || why.find("ermission") != std::string::npos;
+  const bool locked = why.find("unable to lock") != std::string::npos || why.find("ermission") != std::string::npos;
   throw FileError(fmt::format("{}: {}: {}", name_.string(),
                               recognised || locked ? "cannot be opened" : "is not a whole HDF5 file", why));
 }
