@@ -72,7 +72,8 @@ MobilityInterval measure_interval(const Snapshot& before, const Snapshot& after,
     };
     const double z = before.position[i].z(), depth = height - z;
     if (z <= height)
-      add(std::min(bands - 1, static_cast<std::size_t>(z / height * static_cast<double>(bands))));
+      add(std::min(bands - 1,
+                   static_cast<std::size_t>(std::max(0.0, z / height * static_cast<double>(bands)))));
     if (depth >= parameters.surface_band[0] && depth <= parameters.surface_band[1]) add(bands);
   }
   for (const auto& groups : by_size) {
@@ -94,12 +95,16 @@ std::vector<std::size_t> choose_frames(const std::vector<double>& time, const Pa
         (!parameters.mobility_end || time[k] <= *parameters.mobility_end + slack))
       window.push_back(k);
   if (!parameters.mobility_interval || window.size() < 2) return window;
-  // Each frame belongs to the nearest whole number of intervals; of several the one closest to it is taken.
+  // Each frame belongs to the nearest whole number of intervals (half-way: the lower one) that ends within
+  // the window; of several the one closest to it is taken.
+  const double last_multiple =
+      std::floor((time[window.back()] - time[window[0]]) / *parameters.mobility_interval + 1e-9);
   std::vector<std::size_t> chosen{window.front()};
   double chosen_multiple = 0, chosen_miss = 0;
   for (std::size_t w = 1; w < window.size(); ++w) {
     const double intervals = (time[window[w]] - time[window[0]]) / *parameters.mobility_interval;
-    const double multiple = std::round(intervals), miss = std::abs(intervals - multiple);
+    const double multiple = std::min(last_multiple, std::ceil(intervals - 0.5 - 1e-9)),
+                 miss = std::abs(intervals - multiple);
     if (multiple > chosen_multiple)
       chosen.push_back(window[w]);
     else if (multiple > 0 && miss < chosen_miss)

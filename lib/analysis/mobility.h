@@ -38,8 +38,8 @@ struct Mobility {
   std::vector<double> speed;         // um/ms, the same over the time between
 };
 
-// Numbers of the frames to compare, each with the next: those in the window whose times come nearest to start
-// + k interval, or all. Fewer than two: nothing to compare.
+// Numbers of the frames to compare, each with the next: those in the window, or of these the ones whose times come
+// nearest to whole numbers of intervals after the first. Fewer than two: nothing to compare.
 std::vector<std::size_t> choose_frames(const std::vector<double>& time, const Parameters&);
 
 // `numbers` as choose_frames gives them, two or more.

@@ -61,8 +61,8 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
       mass[c][s] += part / sphere * solids.mass[i];
     });
     if (z <= height) {
-      number[c][std::min(slices - 1, static_cast<std::size_t>(z / height * static_cast<double>(slices)))] +=
-          1;
+      const double slice = std::max(0.0, z / height * static_cast<double>(slices));
+      number[c][std::min(slices - 1, static_cast<std::size_t>(slice))] += 1;
       class_number[c] += 1;
     }
     solid_mass += solids.mass[i];

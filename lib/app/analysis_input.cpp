@@ -57,9 +57,9 @@ AnalysisInput open_analysis_input(const CommandLine& line, const AnalysisOptions
   input.frames.count = input.file->frame_count();
   auto progress = std::make_shared<Progress>("measuring " + options.input.filename().string());
   input.frames.read = [file = input.file, progress](std::size_t k) {
-    io::Frame frame = file->frame(k);
+    Layer layer = file->layer(k);
     progress->update(static_cast<double>(k + 1) / static_cast<double>(file->frame_count()));
-    return analysis::Snapshot{frame.time, frame.cell, std::move(frame.position)};
+    return analysis::Snapshot{file->times()[k], layer.cell, std::move(layer.position)};
   };
   return input;
 }

@@ -296,6 +296,7 @@ ParticleFile::ParticleFile(ParticleFile&&) noexcept = default;
 
 std::size_t ParticleFile::particle_count() const { return data_->particles.size(); }
 std::size_t ParticleFile::frame_count() const { return data_->frames; }
+const std::vector<double>& ParticleFile::times() const { return data_->time; }
 const Particles& ParticleFile::particles() const { return data_->particles; }
 bool ParticleFile::has_mass() const { return data_->has_mass; }
 const std::vector<std::string>& ParticleFile::species_names() const { return data_->species_names; }

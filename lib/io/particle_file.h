@@ -30,7 +30,7 @@ class ParticleFile {
 
   std::size_t particle_count() const;
   std::size_t frame_count() const;
-  const std::vector<double>& times() const;  // ms, one a frame; 0 for a packing
+  const std::vector<double>& times() const;  // ms, one a frame
   const Particles& particles() const;   // mass is 0 where the file has none (see has_mass)
   bool has_mass() const;
   const std::vector<std::string>& species_names() const;  // as stored by pigment-pack; empty where unknown

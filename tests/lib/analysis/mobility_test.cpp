@@ -112,6 +112,8 @@ TEST(ChooseFrames, TakesTheWindowAndTheNearestMultiples) {
   parameters.mobility_interval =
       12;  // 22, 34, 46 ms: frames at 20, 35, 45 ms; 50 ms is farther from 46 than 45 is
   EXPECT_EQ(choose_frames(time, parameters), (std::vector<std::size_t>{2, 4, 7, 9}));
+  parameters.mobility_interval = 25;  // 35 ms; 60 ms lies outside
+  EXPECT_EQ(choose_frames(time, parameters), (std::vector<std::size_t>{2, 7}));
   parameters.mobility_interval = 1;  // finer than the frames: each of them
   EXPECT_EQ(choose_frames(time, parameters).size(), 9u);
   parameters.mobility_interval = 1000;
