@@ -1,5 +1,5 @@
 #pragma once
-// Clusters: particles joined by surface separations below a threshold, periodic in x and y [sand2010, 3.5.3].
+// Clusters: particles joined by surface separations below a threshold, periodic in x and y [sand2010] 3.5.3.
 #include <cstdint>
 #include <vector>
 

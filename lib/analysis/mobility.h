@@ -1,6 +1,6 @@
 #pragma once
 // How far particles move between frames: displacement distributions by direction, start height and size, and
-// speeds [sand2010, 3.5.2 and 4.3].
+// speeds [sand2010] 3.5.2 and 4.3.
 #include <vector>
 
 #include "analysis/frames.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Surface separations of near neighbours [sand2010, 3.5.3].
+// Surface separations of near neighbours [sand2010] 3.5.3.
 #include <cstdint>
 #include <vector>
 

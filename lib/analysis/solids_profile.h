@@ -1,6 +1,6 @@
 #pragma once
 // Where the solids of a layer are: profiles over its thickness, by size class, and what follows from them
-// [sand2010, 3.5.1].
+// [sand2010] 3.5.1.
 #include <optional>
 #include <vector>
 
