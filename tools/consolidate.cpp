@@ -1,0 +1,143 @@
+// consolidate: moves the particles of a packing while the layer loses its liquid, until it is immobile.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <numeric>
+
+#include "app/tool.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "calibration/calibration_file.h"
+#include "config/node.h"
+#include "dewatering/dewatering_file.h"
+#include "io/checkpoint_file.h"
+#include "io/particle_file.h"
+#include "io/trajectory_writer.h"
+#include "scene/problem.h"
+#include "scene/scene.h"
+#include "stepping/consolidate.h"
+
+using namespace pigment;
+
+namespace {
+
+struct Options {
+  app::path scene, packing, dewatering, kbrown;
+  double checkpoint_every = 30;
+  bool restart = false;
+} options;
+
+void declare(app::CommandLine& line) {
+  line.describe("Moves the particles of a packing under hydrodynamic, colloidal, surface and Brownian forces while the layer loses\n"
+                "its liquid, and writes the trajectory. Stopped by a signal it saves a checkpoint; the same command goes on from it.",
+                "pigment-consolidate scene.yaml --packing packing.h5 --dewatering dewatering.h5 -o trajectory.h5");
+  line.references("Sand, thesis (2010), chapter 3; docs/physics.md lists every deviation");
+  line.positional("scene", options.scene, "the scene");
+  line.option("--packing", options.packing, "the particles (packing.h5, or box, position and radius made by hand)", true);
+  line.option("--dewatering", options.dewatering, "the liquid lost against time (dewatering.h5); without it the liquid rests");
+  line.option("--kbrown", options.kbrown, "calibration of K_Brown (kbrown.h5); without it the closed form is used");
+  line.option("--checkpoint-every", options.checkpoint_every, "wall time between checkpoints, s (default 30)");
+  line.flag("--restart", options.restart, "set an existing checkpoint aside and begin anew");
+  line.output_required();
+  line.has_threads();
+}
+
+std::vector<io::ObservableInfo> observables() {
+  std::vector<io::ObservableInfo> infos;
+  for (const auto& o : stepping::observable_names()) infos.push_back({o.name, o.dimension});
+  return infos;
+}
+
+void warn_of_overlaps(const stepping::Problem& problem, const Vec3Array& position) {
+  const auto& radius = problem.particles.radius;
+  const auto pairs = neighbours::find_pairs(problem.cell, position, radius, {0, 0, 0});
+  if (pairs.empty()) return;
+  double deepest = 0;
+  for (const auto& [i, j] : pairs)
+    deepest = std::max(deepest, radius[i] + radius[j] - problem.cell.minimum_image(position[j] - position[i]).norm());
+  warning(fmt::format("{}: {} pairs overlap, the deepest by {:.3g} nm; the forces of the scene part them", options.packing.string(),
+                      pairs.size(), deepest * 1e3));
+}
+
+void run(app::CommandLine& line) {
+  config::Document document(options.scene, line.common.set);
+  const scene::Scene scene = scene::read_scene(document, "consolidate");
+  const io::ParticleFile packing(options.packing);
+  io::Provenance provenance{"pigment-consolidate", document.resolved(scene::stage("consolidate").reads), {}};
+  provenance.inputs["packing"] = io::sha256_of_file(options.packing);
+
+  stepping::Problem problem = scene::problem_of(scene, packing);
+  if (!options.dewatering.empty()) {
+    problem.dewatering = dewatering::read_curve(options.dewatering);
+    provenance.inputs["dewatering"] = io::sha256_of_file(options.dewatering);
+  }
+  if (!options.kbrown.empty()) {
+    problem.calibration = calibration::read_calibration(options.kbrown);
+    provenance.inputs["kbrown"] = io::sha256_of_file(options.kbrown);
+  } else if (problem.interactions.brownian) {
+    note("no --kbrown given: K_Brown by its closed form");
+  }
+  const stepping::RunSettings settings = scene::run_settings_of(scene, problem);
+
+  std::map<std::string, std::string> inputs = provenance.inputs;
+  inputs["scene"] = io::sha256_of_text(provenance.scene);
+  inputs["version"] = version;
+  if (options.restart) io::set_checkpoint_aside(line.common.output);
+  stepping::RunState state;
+  const Layer first = packing.layer(0);
+  if (const auto checkpoint = io::read_checkpoint(line.common.output, inputs)) {
+    state = stepping::RunState::from(checkpoint->arrays, checkpoint->integers);
+    note(fmt::format("going on from the checkpoint at t = {:.6g} s", state.time * 1e-3));
+  } else {
+    state = stepping::initial_state(problem, first.position);
+    warn_of_overlaps(problem, first.position);
+  }
+  Layer fixed = first;
+  fixed.particles = problem.particles;
+  io::TrajectoryWriter writer(line.common.output, fixed, packing.species_names(), observables(), provenance,
+                              static_cast<std::size_t>(state.frame));
+  app::handle_signals();
+
+  Progress progress("consolidate");
+  progress.start_at(state.time / settings.until);
+  auto last_save = std::chrono::steady_clock::now();
+  std::int64_t saved_frame = state.frame;
+  const auto save = [&](const stepping::RunState& s) {
+    io::write_checkpoint(line.common.output, {s.arrays(), s.integers(), inputs});
+    last_save = std::chrono::steady_clock::now();
+    saved_frame = s.frame;
+  };
+  stepping::RunCallbacks callbacks;
+  callbacks.on_frame = [&](const stepping::RunState& s, double height, const std::vector<double>& values) {
+    io::Frame frame{s.step, s.time, problem.cell, s.position, s.velocity, s.angular_velocity};
+    frame.cell.height = height;
+    writer.append(frame, values);
+  };
+  callbacks.on_step = [&](const stepping::RunState& s) {
+    const bool stop = app::stop_requested() != 0;
+    const double since = std::chrono::duration<double>(std::chrono::steady_clock::now() - last_save).count();
+    if (stop || s.frame != saved_frame || since >= options.checkpoint_every) save(s);
+    return stop;
+  };
+  callbacks.on_progress = [&](double fraction, const std::string& detail) { progress.update(fraction, detail); };
+
+  std::string outcome;
+  try {
+    outcome = stepping::consolidate(problem, settings, state, callbacks);
+  } catch (const NumericsError& error) {
+    save(state);
+    writer.finish_failed(error.what());
+    throw;
+  }
+  if (outcome == "interrupted") throw app::Interrupted{app::stop_requested()};
+  progress.finish(fmt::format("{} at t = {:.4g} s, {} steps", outcome, state.time * 1e-3, state.step));
+  writer.finish(outcome);
+  io::remove_checkpoint(line.common.output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return app::run_tool("consolidate", argc, argv, declare, run); }
