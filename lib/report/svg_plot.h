@@ -19,8 +19,8 @@ enum class SeriesStyle { Line, Dashed, Points, LineAndPoints, Steps };
 
 struct Series {
   std::string name;
-  std::vector<double> x, y;
-  std::vector<double> error;         // of y, empty: none
+  std::vector<double> x = {}, y = {};
+  std::vector<double> error = {};    // of y, empty: none
   SeriesStyle style = SeriesStyle::Line;  // Steps: x holds one edge more than y
   int colour = -1;                   // 0..7: palette; -1: by position
   std::string fixed_colour = {};     // a CSS colour in place of the palette

@@ -93,4 +93,17 @@ std::string time_text(double ms) {
   return number_text(ms / 60e3) + " min";
 }
 
+std::vector<std::size_t> evenly_in_time(const std::vector<double>& time, std::size_t wanted) {
+  std::vector<std::size_t> chosen;
+  if (time.empty() || wanted == 0) return chosen;
+  const double first = time.front(), last = time.back();
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const double at = wanted == 1 ? last : first + (last - first) * static_cast<double>(k) / static_cast<double>(wanted - 1);
+    const auto nearest = std::min_element(time.begin(), time.end(), [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
+    const auto index = static_cast<std::size_t>(nearest - time.begin());
+    if (chosen.empty() || index > chosen.back()) chosen.push_back(index);
+  }
+  return chosen;
+}
+
 }  // namespace pigment::report

@@ -1,5 +1,5 @@
 #pragma once
-// Round numbers for axes, colour bars and scale bars.
+// Round numbers for axes, colour bars and scale bars; what to show of many times.
 #include <string>
 #include <vector>
 
@@ -20,5 +20,8 @@ double round_below(double limit);
 std::string number_text(double value, int digits = 3);
 // A time in the unit that suits it: "0.12 s", "5 ms", "2 min". ms in.
 std::string time_text(double milliseconds);
+
+// Entries to show out of a list of rising times: first, last, and those nearest to equal steps of time between.
+std::vector<std::size_t> evenly_in_time(const std::vector<double>& time, std::size_t wanted);
 
 }  // namespace pigment::report

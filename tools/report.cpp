@@ -1,0 +1,50 @@
+// report: one page that shows what the files of a run say.
+#include <fmt/format.h>
+
+#include "app/tool.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "report/sections.h"
+#include "report/whole_file.h"
+
+namespace {
+
+using namespace pigment;
+
+struct Options {
+  std::vector<app::path> files;
+  std::string title, colour = "auto";
+};
+
+void declare(app::CommandLine& line, Options& o) {
+  line.describe(
+      "Writes one HTML page, complete in itself, from any of pigment's files: what is given is shown, what is missing is left "
+      "out. Files of one folder are one run.",
+      "pigment-report packing.h5 dewatering.h5 trajectory.h5 solids.h5 cluster.h5 separation.h5 -o report.html");
+  line.positional("files", o.files, "packing, dewatering, kbrown, trajectory, solids, cluster, separation, mobility (HDF5), in any order");
+  line.option("--title", o.title, "heading of the page");
+  line.option("--colour,--color", o.colour, "colours of the pictures: auto (species where there are several, else size), size, species");
+  line.output_required(true, "the page (HTML)");
+  line.has_threads();
+}
+
+void run(const app::CommandLine& line, const Options& o) {
+  if (!line.common.set.empty()) throw InputError("--set: pigment-report reads no scene");
+  if (o.colour != "auto" && o.colour != "size" && o.colour != "species")
+    throw InputError(fmt::format("--colour: \"{}\" is none of auto, size, species", o.colour));
+  const std::vector<report::RunFiles> runs = report::gather_runs(o.files);
+  const std::string title = !o.title.empty() ? o.title : runs.size() == 1 && !runs.front().name.empty() ? "Coating layer: " + runs.front().name : "Coating layers";
+  report::PictureWishes wishes;
+  wishes.colour = o.colour;
+  const std::string page = report::compose_report(runs, title, wishes).page();
+  report::write_whole_file(line.common.output, page);
+  note(fmt::format("{}: {:.1f} MB", line.common.output.string(), 1e-6 * static_cast<double>(page.size())));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return app::run_tool(
+      "report", argc, argv, [&](auto& line) { declare(line, options); }, [&](auto& line) { run(line, options); });
+}
