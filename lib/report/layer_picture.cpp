@@ -225,9 +225,11 @@ Image contact_sheet(const std::vector<Image>& pictures, int columns) {
   if (pictures.empty()) return Image(1, 1);
   const int gap = 12;
   const int count = static_cast<int>(pictures.size());
+  const int width = pictures.front().width, height = pictures.front().height;
+  // Left to itself the sheet comes out about 3 wide by 2 high.
+  if (columns <= 0) columns = static_cast<int>(std::lround(std::sqrt(1.5 * count * height / width)));
   columns = std::clamp(columns, 1, count);
   const int rows = (count + columns - 1) / columns;
-  const int width = pictures.front().width, height = pictures.front().height;
   Image sheet(columns * width + (columns + 1) * gap, rows * height + (rows + 1) * gap);
   for (int i = 0; i < count; ++i)
     sheet.paste(pictures[static_cast<std::size_t>(i)], gap + i % columns * (width + gap), gap + i / columns * (height + gap));

@@ -56,7 +56,7 @@ struct PictureSettings {
 
 Image draw_layer(const Layer&, const ParticleColours&, const PictureSettings&);
 
-// Pictures in a grid, left to right, with a gap between them; all of one size.
+// Pictures in a grid, left to right, with a gap between them; all of one size. columns 0: chosen to suit.
 Image contact_sheet(const std::vector<Image>&, int columns);
 
 }  // namespace pigment::report

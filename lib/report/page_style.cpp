@@ -30,7 +30,7 @@ dt{color:var(--soft);font-size:.84rem}
 dd{margin:.1rem 0 0;font-size:1rem;color:var(--soft)}
 dd b{font-size:1.5rem;font-weight:620;color:var(--ink);letter-spacing:-.01em;font-variant-numeric:tabular-nums}
 dd.note{font-size:.8rem;color:var(--faint);line-height:1.35}
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,500px),1fr));gap:1.1rem;margin-top:1rem}
+.plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:1.1rem;margin-top:1rem}
 figure{margin:0}
 figure.plot{background:var(--card);border:1px solid var(--rule);border-radius:10px;padding:.9rem 1rem .7rem;box-shadow:var(--shade);min-width:0}
 figure.plot figcaption{font-weight:600;font-size:.98rem}

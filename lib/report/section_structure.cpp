@@ -262,7 +262,7 @@ void add_brownian_calibration(HtmlReport& page, const RunView& view) {
     Plot plot;
     plot.title = "K_Brown against temperature";
     plot.x = {"temperature", "°C", {}, {}, false, false};
-    plot.y = {"K_Brown", "N m^-1/2", {}, {}, false, false};
+    plot.y = {"K_Brown", "N/√m", {}, {}, false, false};
     plot.series.push_back({"calibrated", celsius, si(value), deviation ? si(deviation) : std::vector<double>{}, SeriesStyle::Points, 0});
     if (closed) plot.series.push_back({"closed form", celsius, si(closed), {}, SeriesStyle::Dashed, 1});
     page.plots({plot});
@@ -275,7 +275,7 @@ void add_brownian_calibration(HtmlReport& page, const RunView& view) {
     rows.push_back({cell(celsius, 4), step ? time_text(step.at(i)) : "–", value ? cell(si(value), 5) : "–", deviation ? cell(si(deviation), 2) : "–",
                     closed ? cell(si(closed), 5) : "–", against});
   }
-  page.table({"temperature (°C)", "time step", "K_Brown (N m^-1/2)", "standard deviation", "closed form", "difference"}, rows);
+  page.table({"temperature (°C)", "time step", "K_Brown (N/√m)", "standard deviation", "closed form", "difference"}, rows);
 }
 
 void add_provenance(HtmlReport& page, const RunView& view) {

@@ -14,7 +14,7 @@ std::string with_true_minus(std::string text) {
 }
 
 std::string fixed_text(double value, int decimals) {
-  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0;  // no "-0"
+  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) return "0";
   return with_true_minus(fmt::format("{:.{}f}", value, decimals));
 }
 
