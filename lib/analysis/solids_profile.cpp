@@ -119,7 +119,7 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
 
 namespace {
 
-NonAffineInterval non_affine_interval(const Snapshot& before, const Snapshot& after, int slices) {
+NonAffineInterval non_affine_interval(const Snapshot& before, const Snapshot& after) {
   NonAffineInterval interval;
   interval.time = after.time;
   const double dt = after.time - before.time;
@@ -127,7 +127,8 @@ NonAffineInterval non_affine_interval(const Snapshot& before, const Snapshot& af
   std::vector<double> rise(before.position.size());
   for (std::size_t i = 0; i < rise.size(); ++i)
     rise[i] = (after.position[i].z() - before.position[i].z()) / dt;
-  const NonAffineMotion motion = non_affine_motion(before.position, rise, before.cell.height, slices);
+  const NonAffineMotion motion =
+      non_affine_motion(before.position, rise, before.cell.height, non_affine_slices(rise.size()));
   interval.velocity = motion.rms;
   interval.shrinkage_rate = (before.cell.height - after.cell.height) / dt;
   interval.judged = motion.degrees_of_freedom > 0 && interval.shrinkage_rate != 0;
@@ -156,8 +157,7 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   std::vector<Measured> measured;
   if (frames.count > 1)
     measured = measure_intervals(kept, all, [&](const Snapshot& before, const Snapshot& after) {
-      return Measured{profile_solids(after, solids, parameters),
-                      non_affine_interval(before, after, parameters.slices)};
+      return Measured{profile_solids(after, solids, parameters), non_affine_interval(before, after)};
     });
   else
     first = frames.read(0);

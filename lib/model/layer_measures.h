@@ -4,6 +4,7 @@
 // the mean motion at each height is taken away. Exact for spheres, O(N) or O(N log N), and the same bits at
 // any thread count. Radii and positions are arrays of one length, one entry a particle; heights in um above
 // the substrate.
+#include <algorithm>
 #include <vector>
 
 #include "base/vec.h"
@@ -53,5 +54,10 @@ struct NonAffineMotion {
 };
 NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height,
                                   int slices);
+
+// As many slices as leave each some 50 particles, 1 to 30.
+inline int non_affine_slices(std::size_t particles) {
+  return static_cast<int>(std::clamp<std::size_t>(particles / 50, 1, 30));
+}
 
 }  // namespace pigment
