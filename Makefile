@@ -55,12 +55,12 @@ install: build
 
 # ---- studies
 # Results live in $(BUILD)/studies/STUDY/CASE; workflows/rules.mk says how each file is made.
-STUDY_MAKE = $(MAKE) --no-print-directory -C workflows/$(1) BUILD='$(abspath $(BUILD))'
+STUDY_OPTIONS = --no-print-directory -C workflows/$(1) BUILD='$(abspath $(BUILD))'
 
 studies: $(STUDIES:%=study-%)
 .PHONY: $(STUDIES:%=study-%)
 $(STUDIES:%=study-%): study-%: build
-	$(call STUDY_MAKE,$*)
+	$(MAKE) $(call STUDY_OPTIONS,$*)
 
 # Files of a study as goals: one call for all that belong to it, so that -j never runs a stage twice.
 WANTED := $(patsubst $(TOP)/%,%,$(filter $(BUILD)/studies/% $(abspath $(BUILD))/studies/%,$(MAKECMDGOALS)))
@@ -68,7 +68,7 @@ study_of = $(word 2,$(subst /, ,$(patsubst $(BUILD)/%,%,$(1))))
 define study_files
 .PHONY: files-of-$(1)
 files-of-$(1): build
-	$$(call STUDY_MAKE,$(1)) $(abspath $(foreach f,$(WANTED),$(if $(filter $(1),$(call study_of,$f)),$f)))
+	$$(MAKE) $$(call STUDY_OPTIONS,$(1)) $(abspath $(foreach f,$(WANTED),$(if $(filter $(1),$(call study_of,$f)),$f)))
 endef
 $(foreach s,$(sort $(foreach f,$(WANTED),$(call study_of,$f))),$(eval $(call study_files,$s)))
 $(foreach f,$(filter $(BUILD)/studies/% $(abspath $(BUILD))/studies/%,$(MAKECMDGOALS)),\
