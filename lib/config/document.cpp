@@ -68,7 +68,13 @@ bool Document::has_errors() const { return !data_->source->faults.empty(); }
 
 const std::filesystem::path& Document::folder() const { return data_->source->folder; }
 
-std::vector<std::filesystem::path> Document::files() const { return data_->source->files; }
+std::vector<std::filesystem::path> Document::files(const std::vector<std::string>& blocks) const {
+  std::vector<std::filesystem::path> found;
+  for (const auto& [block, file] : data_->source->files)
+    if (blocks.empty() || std::find(blocks.begin(), blocks.end(), block) != blocks.end())
+      if (std::find(found.begin(), found.end(), file) == found.end()) found.push_back(file);
+  return found;
+}
 
 namespace {
 std::string pick(Tree tree, const std::vector<std::string>& blocks) {

@@ -220,8 +220,10 @@ std::filesystem::path Node::file(const std::string& key) {
   }
   data_->record(key, value->scalar, true);
   const std::filesystem::path file = data_->source->folder / value->scalar;
+  const std::string path = data_->path_of(key), block = path.substr(0, path.find('.'));
   auto& files = data_->source->files;
-  if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  if (std::none_of(files.begin(), files.end(), [&](const auto& f) { return f.block == block && f.file == file; }))
+    files.push_back({block, file});
   return file;
 }
 

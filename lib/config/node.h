@@ -107,8 +107,8 @@ class Document {
   std::string resolved(const std::vector<std::string>& blocks = {}) const;
   // The same for a scene that is to be read from `folder`: files are written relative to it.
   std::string resolved_for(const std::filesystem::path& folder, const std::vector<std::string>& blocks = {}) const;
-  // Files that the scene names (Node::file), for provenance, in order of reading.
-  std::vector<std::filesystem::path> files() const;
+  // Files that the scene names (Node::file), in these top-level blocks or all, in order of reading: for provenance.
+  std::vector<std::filesystem::path> files(const std::vector<std::string>& blocks = {}) const;
 
   struct Data;
 

@@ -24,7 +24,11 @@ struct Source {
   };
   std::vector<Fault> faults;
   std::set<std::string> faulty_paths;
-  std::vector<std::filesystem::path> files;
+  struct NamedFile {
+    std::string block;  // top-level key
+    std::filesystem::path file;
+  };
+  std::vector<NamedFile> files;
 
   // The first fault of a path stands; what follows from it is not reported.
   void add(int line, const std::string& path, const std::string& message);

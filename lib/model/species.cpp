@@ -11,7 +11,7 @@ namespace {
 // A diameter outside this range is a slip of the unit, not a pigment. SI.
 const config::Range diameter_range = config::between(1e-9, 1e-3);
 
-void read_cuts(config::Node& block, SizeLaw& law) {
+void check_cuts(config::Node& block, SizeLaw& law) {
   if (!block.failed("min") && !block.failed("max") && law.min >= law.max)
     block.error("min", fmt::format("must be below max ({:.6g} um), found {:.6g} um", law.max, law.min));
 }
@@ -47,7 +47,7 @@ void read_lognormal(config::Node& block, SizeLaw& law) {
   }
   law.min = block.quantity("min", Dimension::Length, diameter_range);
   law.max = block.quantity("max", Dimension::Length, diameter_range);
-  read_cuts(block, law);
+  check_cuts(block, law);
 }
 
 // Cut three standard deviations either side of the mean unless told otherwise.
@@ -64,7 +64,7 @@ void read_normal(config::Node& block, SizeLaw& law) {
   else
     law.min = block.quantity("min", Dimension::Length, fmt::format("{:.9g} um", low), diameter_range);
   law.max = block.quantity("max", Dimension::Length, fmt::format("{:.9g} um", high), diameter_range);
-  read_cuts(block, law);
+  check_cuts(block, law);
 }
 
 SizeLaw read_size(config::Node block) {
@@ -86,7 +86,7 @@ SizeLaw read_size(config::Node block) {
       // The rows themselves are the cut-offs unless these lie further in.
       law.min = block.optional_quantity("min", Dimension::Length, diameter_range).value_or(0);
       law.max = block.optional_quantity("max", Dimension::Length, diameter_range).value_or(0);
-      if (law.min > 0 && law.max > 0) read_cuts(block, law);
+      if (law.min > 0 && law.max > 0) check_cuts(block, law);
       break;
   }
   return law;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+#include "model/size_distribution.h"
+
 namespace pigment::scene {
 namespace {
 
@@ -52,6 +55,16 @@ void check_dewatering(config::Node& root, const Scene& scene) {
   dewatering::check_dewatering(root.block("dewatering"), *scene.dewatering, coating_of(scene));
 }
 
+// A law whose cut-offs leave nothing of it. A table is judged where it is read.
+void check_sizes(config::Node& root, const Scene& scene) {
+  auto blocks = root.blocks("particles");
+  for (std::size_t i = 0; i < scene.species.size(); ++i) try {
+      if (scene.species[i].size.kind != SizeLaw::Kind::Table) SizeDistribution{scene.species[i].size};
+    } catch (const InputError& e) {
+      blocks[i].error("size", e.what());
+    }
+}
+
 // Without a surface the top is a reservoir: there is nothing that could evaporate. A scene that only says how a layer
 // dewaters is not asked: its curve may serve another one.
 void check_surface(config::Node& root, const Scene& scene, const std::string& stage_name) {
@@ -93,6 +106,7 @@ Scene read_scene(config::Document& document, const std::string& stage_name) {
   scene.stepping = stepping::read_stepping(root.block("stepping"));
   scene.output = stepping::read_output(root.block("output"));
   scene.analysis = analysis::read_analysis(root.block("analysis"));
+  if (!document.has_errors()) check_sizes(root, scene);  // with stand-ins for bad values it would only add noise
   check_layer(root, scene);
   check_dewatering(root, scene);
   check_surface(root, scene, stage_name);
