@@ -103,8 +103,8 @@ std::string path_of(const Series& s, const Scale& x, const Scale& y) {
     }
     if (s.style == SeriesStyle::Steps) {
       if (i + 1 >= s.x.size()) break;
-      path += fmt::format("{}{} {}H{}", pen_down ? "V" : "M", pen_down ? px(y(s.y[i])) : px(x(s.x[i])),
-                          pen_down ? "" : px(y(s.y[i])), px(x(s.x[i + 1])));
+      path += pen_down ? "V" + px(y(s.y[i])) : fmt::format("M{} {}", px(x(s.x[i])), px(y(s.y[i])));
+      path += "H" + px(x(s.x[i + 1]));
     } else {
       path += fmt::format("{}{} {}", pen_down ? "L" : "M", px(x(s.x[i])), px(y(s.y[i])));
     }
