@@ -123,11 +123,11 @@ struct ParticleFile::Data {
 };
 
 void ParticleFile::Data::find_positions() {
-  if (!file.is_group(layer_group)) {
-    if (!header.kind.empty() && header.kind != "packing" && header.kind != "trajectory")
-      throw FileError(fmt::format("{}: is a {} file, expected a packing or a trajectory", file.file().string(), header.kind));
+  if (!header.kind.empty() && header.kind != "packing" && header.kind != "trajectory")
+    throw FileError(fmt::format("{}: is {} {} file, expected a packing or a trajectory", file.file().string(),
+                                header.kind == "export" ? "an" : "a", header.kind));
+  if (!file.is_group(layer_group))
     file.fail(layer_group, fmt::format("is missing; the file has {}", list(file.children("/"))));
-  }
   const auto found = find_element(file, layer_group + "/position");
   if (!found) file.fail(layer_group + "/position", fmt::format("is missing; there is {}", list(file.children(layer_group))));
   position = *found;
