@@ -10,6 +10,9 @@
 namespace pigment::neighbours {
 namespace {
 
+// Waking threads for fewer takes longer than the search.
+constexpr std::size_t worth_threads = 2000;
+
 // The cells that one search visits along one direction: `count` of them from `first`, wrapped where periodic.
 struct Span {
   std::int64_t first = 0, count = 0;
@@ -135,7 +138,7 @@ std::vector<IndexPair> sort_pairs(const std::vector<std::vector<IndexPair>>& fou
   std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
   for (const auto& part : found)
     for (const IndexPair& p : part) pairs[next[p.i]++] = p;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (particle_count > worth_threads)
   for (std::size_t i = 0; i < particle_count; ++i)
     std::sort(pairs.begin() + begin[i], pairs.begin() + begin[i + 1],
               [](const IndexPair& a, const IndexPair& b) { return a.j < b.j; });
@@ -168,7 +171,7 @@ std::vector<IndexPair> find_pairs(const Cell& cell, const Vec3Array& position, c
   constexpr std::int64_t chunk = 256;
   const std::int64_t chunks = (static_cast<std::int64_t>(n) + chunk - 1) / chunk;
   std::vector<std::vector<IndexPair>> found(static_cast<std::size_t>(chunks));
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (n > worth_threads)
   for (std::int64_t c = 0; c < chunks; ++c) {
     const std::int64_t end = std::min((c + 1) * chunk, static_cast<std::int64_t>(n));
     for (std::int64_t k = c * chunk; k < end; ++k) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "model/layer_measures.h"
 #include "packing/equilibrate.h"
 #include "packing/random_insertion.h"
@@ -45,22 +44,22 @@ void refuse_impossible(const Recipe& recipe, const LayerTarget& target, const st
   if (recipe.species.empty()) throw InputError("particles: no species is given, so there is nothing to pack");
   const double gap = recipe.packing.minimum_gap;
   if (target.volume_fraction > densest)
-    throw InputError(fmt::format(
-        "layer.solids: {} cannot be packed: equal spheres fill 74 % of space at the densest, and random packings of "
+    throw Impossible("layer", "solids", fmt::format(
+        "{} cannot be packed: equal spheres fill 74 % of space at the densest, and random packings of "
         "mixed sizes jam at about 64 to 73 %; coating colours go to about 78 wt%",
         solids_text(recipe, target.volume_fraction)));
   double largest = 0;
   for (const SizeDistribution& s : sizes) largest = std::max(largest, s.largest());
   if (recipe.layer.width < 2 * largest)
-    throw InputError(fmt::format(
-        "layer.width: {:.6g} um is less than two largest diameters ({:.6g} um), so that particles would meet their own "
+    throw Impossible("layer", "width", fmt::format(
+        "{:.6g} um is less than two largest diameters ({:.6g} um), so that particles would meet their own "
         "images; widen the layer or lower the size law's max",
         recipe.layer.width, 2 * largest));
   if (target.thickness < largest + 2 * gap)
-    throw InputError(fmt::format(
-        "layer.{}: a wet layer of {:.6g} um is thinner than the largest particle ({:.6g} um) with the minimum gap "
-        "({:.4g} um) on either side",
-        recipe.layer.thickness ? "thickness" : "coat_weight", target.thickness, largest, gap));
+    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight", fmt::format(
+        "a wet layer of {:.6g} um is thinner than the largest particle ({:.6g} um) with the minimum gap ({:.4g} um) on "
+        "either side",
+        target.thickness, largest, gap));
 }
 
 // The box that holds these particles at exactly the solids asked for.
@@ -80,19 +79,20 @@ Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& p
 void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const std::vector<double>& radius) {
   const double gap = recipe.packing.minimum_gap, largest = 2 * radius.front();
   if (cell.width_x < 2 * (largest + gap))
-    throw InputError(fmt::format(
-        "layer.width: the {} particles of this layer need a width of {:.6g} um to meet the solids, which is less than two "
+    throw Impossible("layer", "width", fmt::format(
+        "the {} particles of this layer need a width of {:.6g} um to meet the solids, which is less than two "
         "largest diameters ({:.6g} um) with their gaps; widen the layer",
         radius.size(), cell.width_x, 2 * largest));
   if (cell.height < largest + 2 * gap)
-    throw InputError(fmt::format("layer: the layer of {:.6g} um is thinner than its largest particle ({:.6g} um) with the "
-                                 "minimum gap on either side", cell.height, largest));
+    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight", fmt::format(
+        "the layer of {:.6g} um is thinner than its largest particle ({:.6g} um) with the minimum gap on either side",
+        cell.height, largest));
   double filled = 0;
   for (const double a : radius) filled += Particles::sphere_volume(a + gap / 2);
   filled /= cell.area() * (cell.height - gap);
   if (filled > densest)
-    throw InputError(fmt::format(
-        "packing.minimum_gap: with half of the minimum gap of {:.4g} um around each, the particles fill {:.1f} % of the "
+    throw Impossible("packing", "minimum_gap", fmt::format(
+        "with half of the minimum gap of {:.4g} um around each, the particles fill {:.1f} % of the "
         "layer, more than any random packing does; lower the gap or the solids",
         gap, 100 * filled));
 }
@@ -134,8 +134,8 @@ Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
     });
     packing.relaxation_steps = relaxation.steps;
     if (!relaxation.done)
-      throw InputError(fmt::format(
-          "layer.solids: no packing without overlaps was found at {} with a minimum gap of {:.4g} um: after {} steps the "
+      throw Impossible("layer", "solids", fmt::format(
+          "no packing without overlaps was found at {} with a minimum gap of {:.4g} um: after {} steps the "
           "deepest overlap is still {:.3g} nm; lower the solids or packing.minimum_gap, or take a wider size law",
           solids_text(recipe, packing.target.volume_fraction), recipe.packing.minimum_gap, relaxation.steps,
           1e3 * relaxation.largest_overlap));

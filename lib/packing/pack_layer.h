@@ -9,6 +9,7 @@
 #include "model/particles.h"
 #include "model/size_distribution.h"
 #include "model/species.h"
+#include "packing/impossible.h"
 #include "packing/parameters.h"
 
 namespace pigment::packing {
@@ -38,7 +39,7 @@ using OnProgress = std::function<void(const std::string& stage, double fraction)
 // particles at random, largest first, removes overlaps where that stalls, and equilibrates if asked to. Every gap,
 // between particles, to the substrate z = 0 and to the surface, is at least packing.minimum_gap.
 // The same layer for the same recipe, whatever the thread count.
-// Throws InputError, with the reason, for what cannot be packed.
+// Throws Impossible for what cannot be packed, and what SizeDistribution throws.
 Packing pack_layer(const Recipe&, const OnProgress& = {});
 
 }  // namespace pigment::packing

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "packing/adjacency.h"
@@ -9,12 +10,18 @@
 namespace pigment::packing {
 namespace {
 
+// Waking threads for less than this takes longer than the work.
+constexpr std::size_t worth_threads = 10000;
+// Steps between two looks at whether the energy still falls.
+constexpr int stall_check = 300;
+
 // One minimisation on radii enlarged by the factor 1 + margin.
 class Minimisation {
  public:
   Minimisation(const Slab& slab, const std::vector<double>& radius, double margin, Vec3Array& centre)
       : slab_(slab), cell_(slab.cell()), radius_(radius), enlarged_(radius), mass_(radius.size()), centre_(centre),
-        velocity_(radius.size(), Vec3::Zero()), force_(radius.size(), Vec3::Zero()), overlap_(radius.size(), 0.0) {
+        velocity_(radius.size(), Vec3::Zero()), force_(radius.size(), Vec3::Zero()), overlap_(radius.size(), 0.0),
+        energy_(radius.size(), 0.0) {
     const double smallest = *std::min_element(radius.begin(), radius.end());
     for (std::size_t i = 0; i < radius.size(); ++i) {
       enlarged_[i] *= 1 + margin;
@@ -31,12 +38,20 @@ class Minimisation {
     constexpr double first_step = 0.1, longest_step = 0.25;
     double step = first_step, mixing = 0.1;
     int steps_downhill = 0;
+    double energy_before = std::numeric_limits<double>::infinity();
     for (int n = 0; n < most_steps; ++n, ++result.steps) {
       refresh_neighbours();
       evaluate_forces();
       result.largest_overlap = std::max(0.0, *std::max_element(overlap_.begin(), overlap_.end()));
       if (result.largest_overlap <= 0) return true;
       if (on_progress && n % 64 == 0) on_progress(result.largest_overlap);
+      if (n % stall_check == 0) {
+        // Where there is room the energy falls by decades in this many steps; where there is none it settles.
+        double energy = 0;
+        for (const double e : energy_) energy += e;
+        if (energy > 0.7 * energy_before) return false;
+        energy_before = energy;
+      }
 
       double power = 0, speed2 = 0, force2 = 0;  // in the metric of the masses
       for (std::size_t i = 0; i < radius_.size(); ++i) {
@@ -72,10 +87,10 @@ class Minimisation {
   }
 
   void evaluate_forces() {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (centre_.size() > worth_threads)
     for (std::size_t i = 0; i < centre_.size(); ++i) {
       Vec3 force = Vec3::Zero();
-      double worst = 0;
+      double worst = 0, energy = 0;
       for (std::size_t k = near_->begin[i]; k < near_->begin[i + 1]; ++k) {
         const auto j = static_cast<std::size_t>(near_->other[k]);
         const Vec3 d = cell_.minimum_image(centre_[j] - centre_[i]);
@@ -86,14 +101,16 @@ class Minimisation {
         // Concentric spheres part along x, the lower index to the left.
         const Vec3 normal = distance > 0 ? Vec3(d / distance) : Vec3(i < j ? 1 : -1, 0, 0);
         force -= (contact - distance) * normal;
+        energy += (contact - distance) * (contact - distance);
       }
       force_[i] = force;
       overlap_[i] = worst;
+      energy_[i] = energy;
     }
   }
 
   void move(double step) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (centre_.size() > worth_threads)
     for (std::size_t i = 0; i < centre_.size(); ++i) {
       velocity_[i] += step / mass_[i] * force_[i];
       Vec3 displacement = step * velocity_[i];
@@ -115,7 +132,7 @@ class Minimisation {
   std::vector<double> enlarged_, mass_;
   Vec3Array& centre_;
   Vec3Array velocity_, force_, reference_;
-  std::vector<double> overlap_;
+  std::vector<double> overlap_, energy_;
   std::unique_ptr<Adjacency> near_;
   double skin_ = 0;
 };

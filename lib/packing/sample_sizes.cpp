@@ -5,8 +5,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "base/error.h"
 #include "base/random.h"
+#include "packing/impossible.h"
 
 namespace pigment::packing {
 namespace {
@@ -37,12 +37,12 @@ Particles sample_particles(const std::vector<Species>& species, const std::vecto
     const double share = species[s].parts / species[s].density / total_parts;
     const double expected = solids_volume * share / sizes[s].mean_volume();
     if (expected > most_particles)
-      throw InputError("the layer would hold " + count_text(expected) + " particles of species " + species[s].name +
+      throw Impossible("layer", "width", "the layer would hold " + count_text(expected) + " particles of species " + species[s].name +
                        ", more than " + count_text(most_particles) +
                        "; make it narrower or thinner, or raise the lower cut-off of the size law");
     const auto count = static_cast<std::uint64_t>(std::llround(expected));
     if (count == 0 && species[s].parts > 0)
-      throw InputError("the layer is too small to hold a single particle of species " + species[s].name + " (" +
+      throw Impossible("layer", "width", "the layer is too small to hold a single particle of species " + species[s].name + " (" +
                        count_text(expected) + " expected); make it wider or thicker");
     for (std::uint64_t k = 0; k < count; ++k) {
       const double u = random_uniforms({seed, Stream::PackingSizes}, k, s)[0];

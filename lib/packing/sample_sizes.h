@@ -14,7 +14,7 @@ namespace pigment::packing {
 // The diameters are a stratified sample: the k-th of N is drawn at random from the k-th N-th part of the law by number.
 // Every single one follows the law, and together they follow it as closely as N particles can: two seeds differ in where
 // the particles are, not in how coarse the layer is (independent draws would move its volume by several per cent).
-// Throws InputError where that is no particle at all, or too many to pack.
+// Throws Impossible where that is no particle at all, or too many to pack.
 Particles sample_particles(const std::vector<Species>&, const std::vector<SizeDistribution>&, double solids_volume,
                            std::uint64_t seed);
 

@@ -29,7 +29,7 @@ double normal(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 TEST(SizeDistribution, FollowsTheClosedFormOfTheLognormalLaw) {
   // By number a log-normal law of weight is log-normal again, its log-median lower by 3 (ln sigma_g)^2
-  // (Hatch and Choate); both cut at the same diameters.
+  // [hatch1929]; both cut at the same diameters.
   const double median = 0.8, gsd = 1.9, min = 0.2, max = 3;
   const SizeDistribution sizes(lognormal(median, gsd, min, max));
   const double s = std::log(gsd), m = std::log(median), n = m - 3 * s * s;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "packing/impossible.h"
 #include "packing/statistics.h"
 
 namespace pigment::packing {
@@ -71,8 +71,8 @@ TEST(SampleSizes, MixByWeight) {
 TEST(SampleSizes, RefuseNoneAndTooMany) {
   const std::vector<Species> species{fine_carbonate()};
   const std::vector<SizeDistribution> sizes{SizeDistribution(species[0].size)};
-  EXPECT_THROW(sample_particles(species, sizes, 0.1 * sizes[0].mean_volume(), 1), InputError);
-  EXPECT_THROW(sample_particles(species, sizes, 1e8 * sizes[0].mean_volume(), 1), InputError);
+  EXPECT_THROW(sample_particles(species, sizes, 0.1 * sizes[0].mean_volume(), 1), Impossible);
+  EXPECT_THROW(sample_particles(species, sizes, 1e8 * sizes[0].mean_volume(), 1), Impossible);
 }
 
 }  // namespace

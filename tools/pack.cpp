@@ -1,0 +1,175 @@
+// pack: a layer of particles that do not touch, at the solids asked for.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "app/tool.h"
+#include "base/log.h"
+#include "io/particle_file.h"
+#include "packing/pack_layer.h"
+#include "packing/statistics.h"
+#include "scene/scene.h"
+
+namespace {
+
+using namespace pigment;
+
+struct Options {
+  app::path scene;
+};
+
+void declare(app::CommandLine& line, Options& options) {
+  line.describe("Packs the particles of a scene at random into its wet layer: no two touch, the solids are met exactly.",
+                "pigment-pack scene.yaml -o packing.h5");
+  line.references("[bitzek2006] removal of overlaps; [metropolis1953] equilibration; [stephens1970] Kolmogorov-Smirnov");
+  line.positional("scene", options.scene, "the scene (YAML): blocks layer, particles; packing, liquid, seed where there");
+  line.output_required();
+  line.has_threads();
+}
+
+packing::Recipe recipe_of(const scene::Scene& scene) {
+  return {*scene.layer, scene.packing, scene.species, scene.liquid.density, scene.seed};
+}
+
+// One bar a stage.
+packing::OnProgress progress_by_stage() {
+  struct Bar {
+    std::string stage;
+    std::unique_ptr<Progress> progress;
+  };
+  auto bar = std::make_shared<Bar>();
+  return [bar](const std::string& stage, double fraction) {
+    if (stage != bar->stage) {
+      bar->progress.reset();
+      bar->progress = std::make_unique<Progress>(stage);
+      bar->stage = stage;
+    }
+    bar->progress->update(fraction);
+  };
+}
+
+// What cannot be packed is reported with its line in the scene.
+packing::Packing pack(const scene::Scene& scene, config::Document& document) {
+  try {
+    return packing::pack_layer(recipe_of(scene), progress_by_stage());
+  } catch (const packing::Impossible& impossible) {
+    document.root().block(impossible.block).error(impossible.key, impossible.reason);
+    document.check();
+    throw;
+  }
+}
+
+struct SpeciesSizes {
+  std::string name;
+  std::size_t count = 0;
+  packing::KolmogorovSmirnov by_number, by_weight;
+};
+
+std::vector<SpeciesSizes> compare_sizes(const packing::Packing& packing, const std::vector<Species>& species) {
+  std::vector<SpeciesSizes> result;
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    std::vector<double> diameter;
+    for (std::size_t i = 0; i < packing.layer.particles.size(); ++i)
+      if (packing.layer.particles.species[i] == static_cast<int>(s))
+        diameter.push_back(2 * packing.layer.particles.radius[i]);
+    result.push_back({species[s].name, diameter.size(), packing::compare_numbers(diameter, packing.sizes[s]),
+                      packing::compare_weights(diameter, packing.sizes[s])});
+  }
+  return result;
+}
+
+struct Report {
+  packing::Solids solids;
+  packing::SmallestGaps gaps;
+  packing::ProfileFlatness profile;
+  std::vector<SpeciesSizes> sizes;
+};
+
+void tell(const packing::Packing& packing, const Report& report) {
+  const Cell& cell = packing.layer.cell;
+  note(fmt::format("{} particles in {:.6g} x {:.6g} x {:.6g} um (the width asked for, times {:.5f})",
+                   packing.layer.particles.size(), cell.width_x, cell.width_y, cell.height, packing.width_scale));
+  note(fmt::format("solids {:.6g} wt% ({:.6g} vol%), dry coat weight {:.4g} g/m2", 100 * report.solids.mass_fraction,
+                   100 * report.solids.volume_fraction, 1e3 * to_si(Dimension::AreaDensity, report.solids.coat_weight)));
+  if (packing.inserted_overlapping > 0)
+    note(fmt::format("{} particles found no free place; their overlaps went in {} steps", packing.inserted_overlapping,
+                     packing.relaxation_steps));
+  note(fmt::format("smallest gap {}to the substrate {:.4g} nm, to the surface {:.4g} nm",
+                   std::isfinite(report.gaps.particles) ? fmt::format("{:.4g} nm, ", 1e3 * report.gaps.particles) : "",
+                   1e3 * report.gaps.substrate, 1e3 * report.gaps.surface));
+  for (const SpeciesSizes& s : report.sizes)
+    note(fmt::format("{}: {} particles; distance from the size law by number {:.2g} (p = {:.2g}), by weight {:.2g} (p = {:.2g})",
+                     s.name, s.count, s.by_number.distance, s.by_number.p_value, s.by_weight.distance, s.by_weight.p_value));
+  note(fmt::format("volume fraction {:.3f} in the outer 1 um below, {:.3f} between (slices differ by {:.1f} %), {:.3f} above",
+                   report.profile.outer_bottom, report.profile.inner, 100 * report.profile.inner_deviation,
+                   report.profile.outer_top));
+  if (std::abs(packing.width_scale - 1) > 0.05)
+    warning(fmt::format("the layer holds so few particles that its width had to change by {:.1f} % to meet the solids",
+                        100 * (packing.width_scale - 1)));
+}
+
+// The same below /packing in the file.
+std::vector<io::Dataset> datasets_of(const packing::Packing& packing, const Report& report) {
+  std::vector<io::Dataset> datasets;
+  const auto scalar = [&](const char* name, double value, Dimension dimension = Dimension::Number) {
+    datasets.push_back({std::string("/packing/") + name, {}, {value}, dimension, io::Dataset::Storage::Float64});
+  };
+  scalar("solids_mass_fraction", report.solids.mass_fraction, Dimension::MassFraction);
+  scalar("solids_volume_fraction", report.solids.volume_fraction, Dimension::VolumeFraction);
+  scalar("coat_weight", report.solids.coat_weight, Dimension::AreaDensity);
+  scalar("width_scale", packing.width_scale);
+  if (std::isfinite(report.gaps.particles)) scalar("smallest_gap", report.gaps.particles, Dimension::Length);
+  scalar("smallest_gap_to_substrate", report.gaps.substrate, Dimension::Length);
+  scalar("smallest_gap_to_surface", report.gaps.surface, Dimension::Length);
+  scalar("inserted_overlapping", static_cast<double>(packing.inserted_overlapping));
+  scalar("relaxation_steps", packing.relaxation_steps);
+  scalar("equilibration_acceptance", packing.acceptance);
+
+  io::Dataset count{"/packing/sizes/count", {report.sizes.size()}, {}, Dimension::Number, io::Dataset::Storage::Int64};
+  io::Dataset by_number{"/packing/sizes/number_distance", count.shape, {}, Dimension::Number, {}};
+  io::Dataset number_p{"/packing/sizes/number_p_value", count.shape, {}, Dimension::Number, {}};
+  io::Dataset by_weight{"/packing/sizes/weight_distance", count.shape, {}, Dimension::Number, {}};
+  io::Dataset weight_p{"/packing/sizes/weight_p_value", count.shape, {}, Dimension::Number, {}};
+  for (const SpeciesSizes& s : report.sizes) {
+    count.values.push_back(static_cast<double>(s.count));
+    by_number.values.push_back(s.by_number.distance), number_p.values.push_back(s.by_number.p_value);
+    by_weight.values.push_back(s.by_weight.distance), weight_p.values.push_back(s.by_weight.p_value);
+  }
+  for (auto* dataset : {&count, &by_number, &number_p, &by_weight, &weight_p}) datasets.push_back(std::move(*dataset));
+
+  const packing::ProfileFlatness& profile = report.profile;
+  datasets.push_back({"/packing/profile/z_edges", {profile.edges.size()}, profile.edges, Dimension::Length, {}});
+  datasets.push_back({"/packing/profile/volume_fraction", {profile.volume_fraction.size()}, profile.volume_fraction,
+                      Dimension::VolumeFraction, {}});
+  scalar("profile/outer_bottom", profile.outer_bottom, Dimension::VolumeFraction);
+  scalar("profile/inner", profile.inner, Dimension::VolumeFraction);
+  scalar("profile/outer_top", profile.outer_top, Dimension::VolumeFraction);
+  scalar("profile/inner_deviation", profile.inner_deviation);
+  return datasets;
+}
+
+void run(const app::CommandLine& line, const Options& options) {
+  config::Document document(options.scene, line.common.set);
+  const scene::Scene scene = scene::read_scene(document, "pack");
+  io::Provenance provenance{"pigment-pack", document.resolved(scene::stage("pack").reads), {}};
+  std::vector<std::string> names;
+  for (const Species& s : scene.species) {
+    names.push_back(s.name);
+    if (!s.size.file.empty()) provenance.inputs["size of " + s.name] = io::sha256_of_file(s.size.file);
+  }
+
+  const packing::Packing packing = pack(scene, document);
+  const Report report{packing::solids_of(packing.layer, scene.liquid.density), packing::smallest_gaps(packing.layer),
+                      packing::measure_flatness(packing.layer, 30), compare_sizes(packing, scene.species)};
+  tell(packing, report);
+  io::write_packing(line.common.output, packing.layer, names, datasets_of(packing, report), provenance);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return pigment::app::run_tool(
+      "pack", argc, argv, [&](auto& line) { declare(line, options); }, [&](auto& line) { run(line, options); });
+}
