@@ -1,7 +1,9 @@
 #pragma once
 // The frames that an analysis looks at, wherever they come from, and the loop over them.
 #include <algorithm>
+#include <exception>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -22,9 +24,24 @@ struct Frames {
   std::function<Snapshot(std::size_t)> read;
 };
 
+// work(k) for k below count, side by side; the first exception by number is thrown again at the end.
+template <typename Work>
+void side_by_side(std::size_t count, const Work& work) {
+  std::vector<std::exception_ptr> failures(count);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t k = 0; k < count; ++k) {
+    try {
+      work(k);
+    } catch (...) {
+      failures[k] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
 // measure(snapshot) of every frame, in order. Frames are read one after the other and measured side by side,
 // a batch at a time; a result depends on its own frame alone, so the number of threads changes nothing.
-// measure must not throw.
 template <typename Measure>
 auto measure_frames(const Frames& frames, const Measure& measure) {
   using Result = decltype(measure(std::declval<const Snapshot&>()));
@@ -35,8 +52,7 @@ auto measure_frames(const Frames& frames, const Measure& measure) {
     const std::size_t size = std::min(batch, frames.count - first);
     snapshots.clear();
     for (std::size_t k = 0; k < size; ++k) snapshots.push_back(frames.read(first + k));
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t k = 0; k < size; ++k) results[first + k] = measure(snapshots[k]);
+    side_by_side(size, [&](std::size_t k) { results[first + k] = measure(snapshots[k]); });
   }
   return results;
 }
@@ -57,8 +73,7 @@ auto measure_intervals(const Frames& frames, const std::vector<std::size_t>& num
     else
       snapshots = {std::move(snapshots.back())};
     for (std::size_t k = 0; k < size; ++k) snapshots.push_back(frames.read(numbers[first + k + 1]));
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t k = 0; k < size; ++k) results[first + k] = measure(snapshots[k], snapshots[k + 1]);
+    side_by_side(size, [&](std::size_t k) { results[first + k] = measure(snapshots[k], snapshots[k + 1]); });
   }
   return results;
 }

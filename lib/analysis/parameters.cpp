@@ -13,8 +13,8 @@ std::optional<double> automatic_or(config::Node& node, const std::string& key, D
   return std::nullopt;
 }
 
-int count(config::Node& node, const std::string& key, int default_value) {
-  return static_cast<int>(node.integer(key, default_value, config::between(1, 100000)));
+int count(config::Node& node, const std::string& key, int default_value, int most = 10000) {
+  return static_cast<int>(node.integer(key, default_value, config::between(1, most)));
 }
 
 bool rises(const std::vector<double>& values) {
@@ -53,7 +53,7 @@ Parameters read_analysis(config::Node node) {
   p.mobility_interval = automatic_or(node, "mobility_interval", Dimension::Time, config::positive());
   p.displacement_limit = automatic_or(node, "displacement_limit", Dimension::Length, config::positive());
   p.displacement_bins = count(node, "displacement_bins", p.displacement_bins);
-  p.height_bands = count(node, "height_bands", p.height_bands);
+  p.height_bands = count(node, "height_bands", p.height_bands, 100);
   p.surface_band =
       node.quantities("surface_band", Dimension::Length, {"0.5 um", "2 um"}, config::non_negative());
   if (p.surface_band.size() != 2 || !rises(p.surface_band)) {

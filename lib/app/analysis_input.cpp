@@ -47,16 +47,19 @@ AnalysisInput open_analysis_input(const CommandLine& line, const AnalysisOptions
   for (const Species& species : scene.species) input.species_density.push_back(species.density);
 
   input.file = std::make_shared<const io::ParticleFile>(options.input);
-  const bool scene_speaks = !options.scene.empty() || document.root().has("liquid");
-  input.liquid_density =
-      scene_speaks ? scene.liquid.density : density_in_provenance(input.file->provenance().scene);
+  input.liquid_density = document.root().has("liquid")
+                             ? scene.liquid.density
+                             : density_in_provenance(input.file->provenance().scene);
   input.provenance.tool = "pigment-" + tool;
   input.provenance.scene = document.resolved(scene::stage(tool).reads);
   input.provenance.inputs["particles"] = io::sha256_of_file(options.input);
 
   input.frames.count = input.file->frame_count();
-  auto progress = std::make_shared<Progress>("measuring " + options.input.filename().string());
-  input.frames.read = [file = input.file, progress](std::size_t k) {
+  const std::string what = "measuring " + options.input.filename().string();
+  input.frames.read = [file = input.file, what, progress = std::shared_ptr<Progress>(),
+                       last = std::size_t{0}](std::size_t k) mutable {
+    if (!progress || k <= last) progress = std::make_shared<Progress>(what);  // a second pass starts anew
+    last = k;
     Layer layer = file->layer(k);
     progress->update(static_cast<double>(k + 1) / static_cast<double>(file->frame_count()));
     return analysis::Snapshot{file->times()[k], layer.cell, std::move(layer.position)};

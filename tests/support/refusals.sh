@@ -23,7 +23,7 @@ refuses() {
 # What every tool that measures a particle file refuses.
 refuses_bad_particle_files() {
   local tool=$1
-  for kind in nan no_radius negative below; do
+  for kind in nan empty no_radius negative below; do
     /usr/bin/python3 "$PIGMENT_SOURCE/tests/support/hand_made.py" $kind $kind.h5
     refuses 3 $kind.h5 "$tool" $kind.h5 -o output.h5
   done

@@ -5,6 +5,7 @@
 #include <map>
 #include <queue>
 
+#include "base/error.h"
 #include "base/random.h"
 
 namespace pigment::analysis {
@@ -121,6 +122,16 @@ TEST(Clusters, OfNothingAndOfOne) {
   EXPECT_EQ(one.count, 0);
   EXPECT_EQ(one.largest, 1);
   EXPECT_EQ(one.largest_extent, 0);
+}
+
+TEST(Clusters, PassOnWhatGoesWrongInAFrame) {
+  const Frames frames{40, [](std::size_t k) {
+                        Snapshot s;
+                        s.cell = {5, 5, 5};
+                        s.position = {{1, 1, k == 30 ? std::nan("") : 1.0}, {2, 2, 2}};
+                        return s;
+                      }};
+  EXPECT_THROW(find_clusters(frames, {0.5, 0.5}, ids(2), 0.02), NumericsError);
 }
 
 }  // namespace
