@@ -67,6 +67,18 @@ void HtmlReport::images(const std::vector<CaptionedImage>& images, const std::st
   if (!note.empty()) body_ += "<p class=\"note\">" + html_escape(note) + "</p>\n";
 }
 
+void HtmlReport::colours(const ColourLegend& legend) {
+  body_ += "<div class=\"colours\"><span>" + html_escape(legend.label) + "</span>";
+  for (std::size_t i = 0; i < legend.names.size(); ++i)
+    body_ += fmt::format("<span class=\"tint\"><i style=\"background:{}\"></i>{}</span>", html_escape(legend.colours[i]), html_escape(legend.names[i]));
+  if (legend.names.empty()) {
+    body_ += fmt::format("<div class=\"bar\"><i style=\"background:linear-gradient(90deg,{})\"></i>", html_escape(fmt::format("{}", fmt::join(legend.colours, ","))));
+    for (const auto& [position, label] : legend.labels) body_ += fmt::format("<span style=\"left:{:.1f}%\">{}</span>", 100 * position, html_escape(label));
+    body_ += "</div>";
+  }
+  body_ += "</div>\n";
+}
+
 void HtmlReport::table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
   body_ += "<div class=\"scroll\"><table>";
   if (!head.empty()) {

@@ -18,6 +18,14 @@ struct CaptionedImage {
   Image image;
 };
 
+// What the colours of pictures mean: a scale with labels at positions 0..1, or tints by name.
+struct ColourLegend {
+  std::string label;
+  std::vector<std::string> colours;                        // CSS colours: the scale's stops, or one a name
+  std::vector<std::pair<double, std::string>> labels;      // of a scale
+  std::vector<std::string> names;                          // of tints
+};
+
 class HtmlReport {
  public:
   explicit HtmlReport(std::string title, std::string subtitle = {});
@@ -27,6 +35,7 @@ class HtmlReport {
   void headlines(const std::vector<Headline>&);
   void plots(const std::vector<Plot>&);                             // side by side where there is room
   void images(const std::vector<CaptionedImage>&, const std::string& note = {});  // in one row
+  void colours(const ColourLegend&);
   void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
   void folded(const std::string& summary, const std::string& preformatted);
   void remark(const std::string& text);                             // set apart: what a reader must know

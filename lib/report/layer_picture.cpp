@@ -13,12 +13,6 @@ namespace {
 
 const Colour ink = from_srgb(38, 44, 54), soft_ink = from_srgb(92, 100, 112);
 
-double fraction_of_scale(const ParticleColours& c, double value) {
-  if (!(c.high > c.low)) return 0.5;
-  if (c.logarithmic) return std::log(std::max(value, 1e-300) / c.low) / std::log(c.high / c.low);
-  return (value - c.low) / (c.high - c.low);
-}
-
 Camera camera_for(const PictureSettings& s, const Box& shown, int height) {
   Camera camera = s.view == View::Side ? Camera::side() : s.view == View::Top ? Camera::top() : Camera::oblique(s.azimuth, s.elevation);
   if (s.view == View::Oblique && s.perspective) camera.eye_distance = 3.2 * (shown.upper - shown.lower).norm();
@@ -85,19 +79,10 @@ void draw_colour_bar(Image& image, const ParticleColours& colours, double left, 
   const std::string title = colours.unit.empty() ? colours.label : colours.label + " (" + colours.unit + ")";
   draw_text(image, right, y0 - 0.6 * text_height, title, text_height, ink, TextAnchor::End);
   const int wanted = std::max(2, static_cast<int>((right - left) / (5 * text_height)));
-  const bool log = colours.logarithmic && colours.high > colours.low;
-  Ticks ticks = log ? logarithmic_ticks(colours.low, colours.high) : linear_ticks(colours.low, colours.high, wanted);
-  if (log) {  // few round numbers fit a short range: its ends say the rest
-    const double room = 0.12 * std::log(colours.high / colours.low);
-    std::erase_if(ticks.values, [&](double v) { return std::log(v / colours.low) < room || std::log(colours.high / v) < room; });
-    ticks.values.insert(ticks.values.begin(), colours.low);
-    ticks.values.push_back(colours.high);
-    ticks.labels.clear();
-    for (const double v : ticks.values) ticks.labels.push_back(number_text(v, 2));
-  }
+  const Ticks ticks = scale_ticks(colours, wanted);
   double last_end = -1e9;
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {
-    const double x = x0 + (x1 - x0) * fraction_of_scale(colours, ticks.values[i]);
+    const double x = x0 + (x1 - x0) * colours.position(ticks.values[i]);
     const double half = 0.5 * text_width(ticks.labels[i], 0.9 * text_height);
     draw_line(image, x, y1, x, y1 + 0.3 * text_height, 1.2, soft_ink);
     if (x - half < last_end + 0.5 * text_height || x + half > image.width) continue;
@@ -117,7 +102,24 @@ void draw_surface_line(Image& image, const Camera& camera, const Box& liquid, in
 
 Colour ParticleColours::of(std::size_t particle) const {
   if (!categories.empty()) return categorical(static_cast<std::size_t>(std::max(0.0, value[particle])));
-  return sequential(fraction_of_scale(*this, value[particle]));
+  return sequential(position(value[particle]));
+}
+
+double ParticleColours::position(double v) const {
+  if (!(high > low)) return 0.5;
+  if (logarithmic) return std::log(std::max(v, 1e-300) / low) / std::log(high / low);
+  return (v - low) / (high - low);
+}
+
+Ticks scale_ticks(const ParticleColours& c, int wanted) {
+  if (!c.logarithmic || !(c.high > c.low)) return linear_ticks(c.low, c.high, wanted);
+  Ticks ticks = logarithmic_ticks(c.low, c.high);
+  std::erase_if(ticks.values, [&](double v) { return c.position(v) < 0.12 || c.position(v) > 0.88; });
+  ticks.values.insert(ticks.values.begin(), c.low);
+  ticks.values.push_back(c.high);
+  ticks.labels.clear();
+  for (const double v : ticks.values) ticks.labels.push_back(number_text(v, v < 10 ? 2 : 3));
+  return ticks;
 }
 
 ParticleColours colours_by_size(const Particles& particles) {
@@ -168,7 +170,7 @@ Image draw_layer(const Layer& layer, const ParticleColours& colours, const Pictu
   for (std::size_t i = 0; i < layer.position.size(); ++i) top = std::max(top, layer.position[i].z() + layer.particles.radius[i]);
   const double shown_top = s.framed_height.value_or(top);
   const double slab = std::max(0.035 * shown_top, 0.01 * wide);
-  const double text_height = std::clamp(0.017 * std::min(1.4 * s.width, 1.0 * s.height + 200), 9.0, 26.0);
+  const double text_height = s.text_scale * std::clamp(0.017 * std::min(1.4 * s.width, 1.0 * s.height + 200), 9.0, 26.0);
   const bool footer = s.scale_bar || s.colour_bar;
   const int footer_height = footer ? static_cast<int>(5.4 * text_height) : 0;
   const int header_height = s.caption.empty() ? 0 : static_cast<int>(2.6 * text_height);

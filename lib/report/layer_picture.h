@@ -7,6 +7,7 @@
 
 #include "model/particles.h"
 #include "report/render.h"
+#include "report/ticks.h"
 
 namespace pigment::report {
 
@@ -22,7 +23,10 @@ struct ParticleColours {
   std::vector<std::string> categories;  // not empty: value is an index into these
 
   Colour of(std::size_t particle) const;
+  double position(double value) const;  // on the scale, 0..1 inside its ends
 };
+// Round numbers along the scale; short logarithmic scales are told by their ends as well.
+Ticks scale_ticks(const ParticleColours&, int wanted);
 ParticleColours colours_by_size(const Particles&);
 ParticleColours colours_by_species(const Particles&, const std::vector<std::string>& names);
 ParticleColours colours_by_height(const Layer&, double highest);
@@ -52,6 +56,7 @@ struct PictureSettings {
   std::optional<double> framed_height;  // um: same scale for a whole sequence; absent: this frame's own
   bool scale_bar = true, colour_bar = true;
   std::string caption;              // upper left, "t = 0.12 s"
+  double text_scale = 1;            // for pictures that are shown smaller than they are
 };
 
 Image draw_layer(const Layer&, const ParticleColours&, const PictureSettings&);

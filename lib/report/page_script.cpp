@@ -3,6 +3,7 @@
 namespace pigment::report {
 
 const char* const page_script = R"js("use strict";
+const sliders = [];
 for (const figure of document.querySelectorAll("figure.plot")) {
   const data = JSON.parse(figure.querySelector("script[type='application/json']").textContent);
   const svg = figure.querySelector("svg"), hover = svg.querySelector(".hover"), tip = figure.querySelector(".tip");
@@ -49,12 +50,19 @@ for (const figure of document.querySelectorAll("figure.plot")) {
       clear();
     });
 
-  if (slider) slider.addEventListener("input", () => {
-    frame = Number(slider.value);
-    output.textContent = data.frames[frame].label;
-    data.frames[frame].series.forEach((s, i) => group(fixed + i).querySelector(".line").setAttribute("d", path(s)));
-    clear();
-  });
+  // Sliders over the same times move together.
+  if (slider) {
+    const times = data.frames.map(f => f.label).join();
+    const go_to = k => {
+      frame = k;
+      slider.value = k;
+      output.textContent = data.frames[k].label;
+      data.frames[k].series.forEach((s, i) => group(fixed + i).querySelector(".line").setAttribute("d", path(s)));
+      clear();
+    };
+    sliders.push({times, go_to});
+    slider.addEventListener("input", () => sliders.filter(s => s.times === times).forEach(s => s.go_to(Number(slider.value))));
+  }
 
   const draw = (name, attributes) => {
     const element = document.createElementNS(svg.namespaceURI, name);

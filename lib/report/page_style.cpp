@@ -69,6 +69,13 @@ svg .pick{stroke:var(--card);stroke-width:1.5}
 .pictures{display:flex;gap:1rem;margin-top:1rem;overflow-x:auto}
 .pictures figure{flex:1 1 0;min-width:150px;max-width:640px}
 .pictures img{display:block;width:100%;height:auto;border-radius:8px;border:1px solid var(--rule)}
+@media screen and (prefers-color-scheme:dark){.pictures img{filter:brightness(.93)}}
+.colours{display:flex;flex-wrap:wrap;gap:.2rem 1.4rem;align-items:flex-start;margin:.8rem 0 0;font-size:.86rem;color:var(--soft)}
+.colours .bar{width:min(320px,60vw);position:relative;padding-bottom:1.35rem}
+.colours .bar i{display:block;height:.7rem;border-radius:3px}
+.colours .bar span{position:absolute;top:.8rem;transform:translateX(-50%);font-size:.8rem;font-variant-numeric:tabular-nums}
+.colours .tint{display:inline-flex;align-items:center;gap:.4rem}
+.colours .tint i{width:.85rem;height:.85rem;border-radius:50%}
 .pictures figcaption{font-size:.88rem;color:var(--soft);margin-top:.4rem;text-align:center}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-size:.9rem;margin-top:.6rem;min-width:50%}

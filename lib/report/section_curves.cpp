@@ -184,7 +184,7 @@ void add_development(HtmlReport& page, const RunView& view) {
     keep(plots, motion);
   }
   if (plots.empty()) return;
-  page.section("Consolidation in time");
+  page.section("Consolidation");
   page.plots(plots);
 }
 
@@ -211,7 +211,7 @@ void add_numerics(HtmlReport& page, const RunView& view) {
   add_observable(protruding, view, "protruding_fraction", "protruding", 100);
   if (largest(protruding) > 0) keep(plots, protruding);
   if (plots.empty()) return;
-  page.section("How the run went");
+  page.section("Numerics");
   page.plots(plots);
 }
 

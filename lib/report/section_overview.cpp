@@ -54,6 +54,8 @@ std::vector<double> RunView::shown_times(std::vector<double> times) const {
   return times;
 }
 
+std::string RunView::when(double milliseconds) const { return number_text(shown_time(milliseconds), 4) + (in_seconds ? " s" : " ms"); }
+
 std::vector<MarkerLine> RunView::immobilisation_marker() const {
   if (!immobilisation_time) return {};
   return {{shown_time(*immobilisation_time), "immobile"}};
@@ -64,9 +66,9 @@ void add_overview(HtmlReport& page, const RunView& view) {
   const auto* trajectory = view.files.trajectory.get();
   if (trajectory && !trajectory->outcome().empty()) {
     numbers.push_back({"Outcome", outcome_text(trajectory->outcome()), "", ""});
-    if (view.longest_time > 0) numbers.back().note = "after " + time_text(view.longest_time);
+    if (view.longest_time > 0) numbers.back().note = "after " + view.when(view.longest_time);
   }
-  if (view.immobilisation_time) numbers.push_back({"Immobile from", time_text(*view.immobilisation_time), "", "particles move with the layer only"});
+  if (view.immobilisation_time) numbers.push_back({"Immobile from", view.when(*view.immobilisation_time), "", "particles move with the layer only"});
   if (const auto solids = observable_or_result(view, "solids_mass_fraction", "/solids/mean_mass_fraction"); !solids.empty()) {
     numbers.push_back({solids.size() > 1 ? "Final solids" : "Solids", number_text(100 * solids.back(), 3), "wt%", ""});
     if (solids.size() > 1) numbers.back().note = "from " + number_text(100 * solids.front(), 3) + " wt%";

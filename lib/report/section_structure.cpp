@@ -29,11 +29,11 @@ std::string shade_of(std::size_t k, std::size_t count) {
 
 // A plot with one curve a chosen time, and a slider over (at most 120 of) all times.
 template <typename Curve>
-void add_times(Plot& plot, const std::vector<double>& time, std::size_t shown, const Curve& curve) {
+void add_times(Plot& plot, const RunView& view, const std::vector<double>& time, std::size_t shown, const Curve& curve) {
   const auto chosen = evenly_in_time(time, shown);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     Series s = curve(chosen[k]);
-    s.name = time_text(time[chosen[k]]);
+    s.name = view.when(time[chosen[k]]);
     s.fixed_colour = shade_of(k, chosen.size());
     plot.series.push_back(std::move(s));
   }
@@ -42,7 +42,7 @@ void add_times(Plot& plot, const std::vector<double>& time, std::size_t shown, c
     Series s = curve(k);
     s.name = "slider";
     s.fixed_colour = "var(--mark)";
-    plot.frames.push_back({time_text(time[k]), {std::move(s)}});
+    plot.frames.push_back({view.when(time[k]), {std::move(s)}});
   }
 }
 
@@ -89,7 +89,7 @@ void add_profiles(HtmlReport& page, const RunView& view) {
     plot.y = {"height", "µm", 0, {}, false, true};
     plot.read_by_height = true;
     plot.height = 420;
-    add_times(plot, time.all(), 6, [&](std::size_t k) { return Series{"", scaled(values.row(k), 100), heights(k)}; });
+    add_times(plot, view, time.all(), 6, [&](std::size_t k) { return Series{"", scaled(values.row(k), 100), heights(k)}; });
     plots.push_back(std::move(plot));
   };
   profile("mass_fraction", "Solids over the height, by weight", "wt%");
@@ -109,7 +109,7 @@ void add_profiles(HtmlReport& page, const RunView& view) {
       values.push_back(rows_of(*file, fmt::format("/solids/size_class_{}/{}", c, name), time.rows, slices));
     if (std::none_of(values.begin(), values.end(), [](const Rows& r) { return bool(r); })) return;
     for (const std::size_t k : evenly_in_time(time.all(), time.rows > 1 ? 120 : 1)) {
-      PlotFrame frame{time_text(time.at(k)), {}};
+      PlotFrame frame{view.when(time.at(k)), {}};
       for (std::size_t c = 0; c < values.size(); ++c)
         if (values[c]) frame.series.push_back({class_name(borders, c), scaled(values[c].row(k), factor), heights(k), {}, SeriesStyle::Line, static_cast<int>(c)});
       plot.frames.push_back(std::move(frame));
@@ -121,7 +121,7 @@ void add_profiles(HtmlReport& page, const RunView& view) {
     classes("volume_fraction", "Size classes over the height, by volume", "solids of the class", 100, "vol%");
   }
   if (plots.empty()) return;
-  page.section("Where the solids are", "Profiles from the substrate (height 0) to the surface. The slider goes through the frames; the thin lines stay.");
+  page.section("Solids profiles", "Profiles from the substrate (height 0) to the surface. The slider goes through the frames; the thin lines stay.");
   page.plots(plots);
 }
 
@@ -166,7 +166,7 @@ void add_separations(HtmlReport& page, const RunView& view) {
     plot.title = "Separations of near neighbours";
     plot.x = {"surface separation", "nm", {}, {}, false, true};
     plot.y = {"probability density", "1/nm", {}, {}, false, true};
-    add_times(plot, time.all(), 5, [&](std::size_t k) {
+    add_times(plot, view, time.all(), 5, [&](std::size_t k) {
       return Series{"", scaled(edges.all(), 1000), scaled(density.row(k), 1e-3), {}, SeriesStyle::Steps};
     });
     plots.push_back(std::move(plot));
@@ -178,7 +178,7 @@ void add_separations(HtmlReport& page, const RunView& view) {
       plot.title = "Near contact";
       plot.x = {"surface separation", "nm", {}, {}, false, true};
       plot.y = {"share of the near pairs that are closer", "%", {}, {}, false, true};
-      add_times(plot, time.all(), 5, [&](std::size_t k) { return Series{"", scaled(near.all(), 1000), scaled(cumulative.row(k), 100)}; });
+      add_times(plot, view, time.all(), 5, [&](std::size_t k) { return Series{"", scaled(near.all(), 1000), scaled(cumulative.row(k), 100)}; });
       plots.push_back(std::move(plot));
     }
   const auto in_time = [&](const char* name, const char* title, const char* label, const char* unit, double factor) {
@@ -219,7 +219,7 @@ void add_mobility(HtmlReport& page, const RunView& view) {
     plot.x = {"displacement", "nm", {}, {}, false, true};
     plot.y = {"probability density", "1/nm", {}, {}, false, true};
     for (const std::size_t k : evenly_in_time(time.all(), 120)) {
-      PlotFrame frame{(start ? time_text(start.at(k)) + " to " : std::string("to ")) + time_text(time.at(k)), {}};
+      PlotFrame frame{(start ? number_text(view.shown_time(start.at(k)), 4) + " to " : std::string("to ")) + view.when(time.at(k)), {}};
       for (std::size_t b = 0; b < bands; ++b)
         frame.series.push_back({band_name(b, bands), scaled(edges.all(), 1000), scaled(cube.line(k, b), 1e-3), {}, SeriesStyle::Steps, static_cast<int>(b)});
       plot.frames.push_back(std::move(frame));
@@ -280,7 +280,7 @@ void add_brownian_calibration(HtmlReport& page, const RunView& view) {
 
 void add_provenance(HtmlReport& page, const RunView& view) {
   if (view.files.sources.empty()) return;
-  page.section("Where this comes from", "Every file names the tool that wrote it, the inputs by their SHA-256, and the parts of the scene that the tool read.");
+  page.section("Provenance", "Every file names the tool that wrote it, the inputs by their SHA-256, and the parts of the scene that the tool read.");
   std::vector<std::vector<std::string>> rows;
   for (const SourceFile& s : view.files.sources) {
     std::string inputs;

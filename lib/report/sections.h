@@ -13,11 +13,11 @@ struct RunView {
   double longest_time = 0;                     // ms, of any file of the run
   bool in_seconds = true;                      // else milliseconds
   std::optional<double> immobilisation_time;   // ms
-  std::optional<double> liquid_density;        // engine units, where the run's scene tells it
 
   explicit RunView(const RunFiles&);
   double shown_time(double milliseconds) const { return in_seconds ? milliseconds / 1000 : milliseconds; }
   std::vector<double> shown_times(std::vector<double> milliseconds) const;
+  std::string when(double milliseconds) const;   // "0.125 s", all of one run in one unit
   Axis time_axis() const { return {"time", in_seconds ? "s" : "ms", {}, {}, false, true}; }
   std::vector<MarkerLine> immobilisation_marker() const;
 };

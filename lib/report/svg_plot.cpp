@@ -10,7 +10,7 @@
 namespace pigment::report {
 namespace {
 
-constexpr double width = 640, left = 64, right = 16, top = 14, bottom = 50;
+constexpr double width = 640, right = 16, top = 14, bottom = 50;
 
 struct Scale {
   double low = 0, high = 1, begin = 0, end = 1;  // data range and the pixels it maps to
@@ -54,6 +54,7 @@ Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, dou
     for (const MarkerLine& m : plot.markers) take(m.value);
   if (!(low <= high)) low = axis.logarithmic ? 1 : 0, high = axis.logarithmic ? 10 : 1;
   if (axis.from_zero && !axis.logarithmic) low = std::min(low, 0.0), high = std::max(high, 0.0);
+  if (axis.from_zero && low == 0 && high == 0) high = 1;
   if (low == high) {
     const double pad = low == 0 ? 1 : 0.1 * std::abs(low);
     if (axis.logarithmic) low /= 2, high *= 2;
@@ -70,17 +71,40 @@ Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, dou
       if (high != 0) high += pad;
     }
   }
+  const bool points_at_edge = is_x && std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.style == SeriesStyle::Points; });
+  if (points_at_edge && !axis.logarithmic) {
+    const double pad = 0.04 * (high - low);
+    low -= pad, high += pad;
+  }
   low = axis.low.value_or(low), high = axis.high.value_or(high);
   if (!(high > low)) high = low + 1;
   return {low, high, begin, end, axis.logarithmic};
 }
 
-Ticks ticks_for(const Scale& s, int wanted) {
+// Ticks, and the power of ten taken out of their labels into the axis' title where the numbers are very small or large.
+struct AxisTicks {
+  Ticks ticks;
+  int exponent = 0;
+};
+
+AxisTicks ticks_for(const Scale& s, int wanted) {
   if (s.logarithmic) {
     Ticks ticks = logarithmic_ticks(s.low, s.high);
-    if (ticks.values.size() >= 2) return ticks;
+    if (ticks.values.size() >= 2) return {ticks, 0};
   }
-  return linear_ticks(s.low, s.high, wanted);
+  const double most = std::max(std::abs(s.low), std::abs(s.high));
+  const int exponent = most >= 1e5 || most < 1e-2 ? static_cast<int>(std::floor(std::log10(most))) : 0;
+  const double factor = std::pow(10.0, -exponent);
+  Ticks ticks = linear_ticks(s.low * factor, s.high * factor, wanted);
+  for (double& v : ticks.values) v /= factor;
+  return {ticks, exponent};
+}
+
+std::string power_of_ten(int exponent) {
+  static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = exponent < 0 ? "10⁻" : "10";
+  for (const char c : std::to_string(std::abs(exponent))) out += digits[c - '0'];
+  return out;
 }
 
 std::string colour_of(const Series& s, std::size_t index) {
@@ -89,8 +113,14 @@ std::string colour_of(const Series& s, std::size_t index) {
   return fmt::format("var(--s{})", slot % 8 + 1);
 }
 
-std::string axis_title(const Axis& a) {
-  return html_escape(a.unit.empty() ? a.label : a.label + " (" + a.unit + ")");
+std::string axis_title(const Axis& a, int exponent) {
+  std::string unit = a.unit;
+  if (exponent != 0) unit = power_of_ten(exponent) + (unit.empty() ? "" : " " + unit);
+  return html_escape(unit.empty() ? a.label : a.label + " (" + unit + ")");
+}
+
+std::size_t letters_in(const std::string& utf8) {
+  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 std::string path_of(const Series& s, const Scale& x, const Scale& y) {
@@ -129,10 +159,10 @@ std::string series_group(const Series& s, std::size_t index, const Scale& x, con
   return out + "</g>";
 }
 
-std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
+std::string axes(const Plot& plot, const Scale& x, const Scale& y, const AxisTicks& along_x, const AxisTicks& along_y) {
+  const Ticks &x_ticks = along_x.ticks, &y_ticks = along_y.ticks;
   std::string out;
   const double floor = y.begin, ceiling = y.end;
-  const Ticks x_ticks = ticks_for(x, 6), y_ticks = ticks_for(y, 5);
   for (std::size_t i = 0; i < x_ticks.values.size(); ++i) {
     const double v = x_ticks.values[i];
     out += fmt::format(R"(<path class="grid" d="M{0} {1}V{2}"/><text class="tick" x="{0}" y="{3}" text-anchor="middle">{4}</text>)", px(x(v)),
@@ -145,9 +175,9 @@ std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
   }
   out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", px(x.begin), px(ceiling), px(floor), px(x.end));
   out += fmt::format(R"(<text class="label" x="{}" y="{}" text-anchor="middle">{}</text>)", px(0.5 * (x.begin + x.end)), px(floor + 40),
-                     axis_title(plot.x));
+                     axis_title(plot.x, along_x.exponent));
   out += fmt::format(R"svg(<text class="label" transform="translate(16 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
-                     px(0.5 * (floor + ceiling)), axis_title(plot.y));
+                     px(0.5 * (floor + ceiling)), axis_title(plot.y, along_y.exponent));
   return out;
 }
 
@@ -243,14 +273,20 @@ std::string json_string(const std::string& text) {
 
 std::string plot_figure(const Plot& plot, const std::string& id) {
   const double floor = plot.height - bottom;
-  const Scale x = scale_for(plot, plot.x, true, left, width - right), y = scale_for(plot, plot.y, false, floor, top);
+  const Scale y = scale_for(plot, plot.y, false, floor, top);
+  const AxisTicks y_ticks = ticks_for(y, 5);
+  // Room for the axis' title and the longest of its numbers, at 7.2 pixels a digit.
+  std::size_t longest = 0;
+  for (const std::string& label : y_ticks.ticks.labels) longest = std::max(longest, letters_in(label));
+  const double left = std::max(54.0, 34 + 7.2 * static_cast<double>(longest));
+  const Scale x = scale_for(plot, plot.x, true, left, width - right);
   std::string out = fmt::format(R"(<figure class="plot" id="{}"><figcaption>{}</figcaption>)", id, html_escape(plot.title));
   out += legend(plot);
   out += fmt::format(R"(<div class="canvas"><svg viewBox="0 0 {} {}" role="img" tabindex="0" aria-label="{}">)", width, plot.height,
                      html_escape(plot.title));
   out += fmt::format(R"(<clipPath id="{}-clip"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>)", id, px(x.begin), px(y.end - 4),
                      px(x.end - x.begin + 4), px(y.begin - y.end + 8));
-  out += axes(plot, x, y) + fmt::format(R"svg(<g clip-path="url(#{}-clip)">)svg", id);
+  out += axes(plot, x, y, ticks_for(x, 6), y_ticks) + fmt::format(R"svg(<g clip-path="url(#{}-clip)">)svg", id);
   for (std::size_t i = 0; i < plot.series.size(); ++i) out += series_group(plot.series[i], i, x, y, false);
   if (!plot.frames.empty())
     for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i)

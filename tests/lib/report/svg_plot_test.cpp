@@ -77,15 +77,15 @@ TEST(SvgPlot, PointsStandWhereTheAxesSay) {
   Plot plot = line({0, 1, 2}, {0, 5, 10});
   plot.y.low = 0, plot.y.high = 10;
   const std::string svg = plot_figure(plot, "p");
-  // Drawing area: 64..624 across, 290..14 up (of 640 x 340).
-  EXPECT_NE(svg.find("d=\"M64 290L344 152L624 14\""), std::string::npos) << svg;
+  // Drawing area: 54..624 across, 290..14 up (of 640 x 340).
+  EXPECT_NE(svg.find("d=\"M54 290L339 152L624 14\""), std::string::npos) << svg;
 }
 
 TEST(SvgPlot, StepsFollowTheirEdges) {
   Plot plot = line({0, 1, 2}, {10, 5});
   plot.series[0].style = SeriesStyle::Steps;
   plot.y.low = 0, plot.y.high = 10;
-  EXPECT_NE(plot_figure(plot, "p").find("d=\"M64 14H344V152H624\""), std::string::npos);
+  EXPECT_NE(plot_figure(plot, "p").find("d=\"M54 14H339V152H624\""), std::string::npos);
 }
 
 TEST(SvgPlot, GapsStayGapsAndNothingIsNotANumber) {
