@@ -22,7 +22,11 @@ struct Options {
 void declare(app::CommandLine& line, Options& options) {
   line.describe("Packs the particles of a scene at random into its wet layer: no two touch, the solids are met exactly.",
                 "pigment-pack scene.yaml -o packing.h5");
-  line.references("[bitzek2006] removal of overlaps; [metropolis1953] equilibration; [stephens1970] Kolmogorov-Smirnov");
+  line.references(
+      "Sand, A.: Microscopic Simulation of Pigment Coating Consolidation, Abo Akademi 2010, 4.2 (the size law)\n"
+      "Bitzek, E. et al.: Physical Review Letters 97 (2006) 170201 (removal of overlaps)\n"
+      "Metropolis, N. et al.: The Journal of Chemical Physics 21 (1953) 1087 (equilibration)\n"
+      "Stephens, M. A.: Journal of the Royal Statistical Society B 32 (1970) 115 (Kolmogorov-Smirnov)");
   line.positional("scene", options.scene, "the scene (YAML): blocks layer, particles; packing, liquid, seed where there");
   line.output_required();
   line.has_threads();
