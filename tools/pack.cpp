@@ -6,6 +6,7 @@
 
 #include "app/tool.h"
 #include "base/log.h"
+#include "io/columns.h"
 #include "io/particle_file.h"
 #include "packing/pack_layer.h"
 #include "packing/statistics.h"
@@ -64,33 +65,14 @@ packing::Packing pack(const scene::Scene& scene, config::Document& document) {
   }
 }
 
-struct SpeciesSizes {
-  std::string name;
-  std::size_t count = 0;
-  packing::KolmogorovSmirnov by_number, by_weight;
-};
-
-std::vector<SpeciesSizes> compare_sizes(const packing::Packing& packing, const std::vector<Species>& species) {
-  std::vector<SpeciesSizes> result;
-  for (std::size_t s = 0; s < species.size(); ++s) {
-    std::vector<double> diameter;
-    for (std::size_t i = 0; i < packing.layer.particles.size(); ++i)
-      if (packing.layer.particles.species[i] == static_cast<int>(s))
-        diameter.push_back(2 * packing.layer.particles.radius[i]);
-    result.push_back({species[s].name, diameter.size(), packing::compare_numbers(diameter, packing.sizes[s]),
-                      packing::compare_weights(diameter, packing.sizes[s])});
-  }
-  return result;
-}
-
 struct Report {
   packing::Solids solids;
   packing::SmallestGaps gaps;
   packing::ProfileFlatness profile;
-  std::vector<SpeciesSizes> sizes;
+  std::vector<packing::SizeAgreement> sizes;  // one a species
 };
 
-void tell(const packing::Packing& packing, const Report& report) {
+void tell(const packing::Packing& packing, const Report& report, const std::vector<std::string>& species) {
   const Cell& cell = packing.layer.cell;
   note(fmt::format("{} particles in {:.6g} x {:.6g} x {:.6g} um (the width asked for, times {:.5f})",
                    packing.layer.particles.size(), cell.width_x, cell.width_y, cell.height, packing.width_scale));
@@ -102,9 +84,12 @@ void tell(const packing::Packing& packing, const Report& report) {
   note(fmt::format("smallest gap {}to the substrate {:.4g} nm, to the surface {:.4g} nm",
                    std::isfinite(report.gaps.particles) ? fmt::format("{:.4g} nm, ", 1e3 * report.gaps.particles) : "",
                    1e3 * report.gaps.substrate, 1e3 * report.gaps.surface));
-  for (const SpeciesSizes& s : report.sizes)
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    const packing::SizeAgreement& sizes = report.sizes[s];
     note(fmt::format("{}: {} particles; distance from the size law by number {:.2g} (p = {:.2g}), by weight {:.2g} (p = {:.2g})",
-                     s.name, s.count, s.by_number.distance, s.by_number.p_value, s.by_weight.distance, s.by_weight.p_value));
+                     species[s], sizes.count, sizes.by_number.distance, sizes.by_number.p_value,
+                     sizes.by_weight.distance, sizes.by_weight.p_value));
+  }
   note(fmt::format("volume fraction {:.3f} in the outer 1 um below, {:.3f} between (slices differ by {:.1f} %), {:.3f} above",
                    report.profile.outer_bottom, report.profile.inner, 100 * report.profile.inner_deviation,
                    report.profile.outer_top));
@@ -130,22 +115,20 @@ std::vector<io::Dataset> datasets_of(const packing::Packing& packing, const Repo
   scalar("relaxation_steps", packing.relaxation_steps);
   scalar("equilibration_acceptance", packing.acceptance);
 
-  io::Dataset count{"/packing/sizes/count", {report.sizes.size()}, {}, Dimension::Number, io::Dataset::Storage::Int64};
-  io::Dataset by_number{"/packing/sizes/number_distance", count.shape, {}, Dimension::Number, {}};
-  io::Dataset number_p{"/packing/sizes/number_p_value", count.shape, {}, Dimension::Number, {}};
-  io::Dataset by_weight{"/packing/sizes/weight_distance", count.shape, {}, Dimension::Number, {}};
-  io::Dataset weight_p{"/packing/sizes/weight_p_value", count.shape, {}, Dimension::Number, {}};
-  for (const SpeciesSizes& s : report.sizes) {
-    count.values.push_back(static_cast<double>(s.count));
-    by_number.values.push_back(s.by_number.distance), number_p.values.push_back(s.by_number.p_value);
-    by_weight.values.push_back(s.by_weight.distance), weight_p.values.push_back(s.by_weight.p_value);
-  }
-  for (auto* dataset : {&count, &by_number, &number_p, &by_weight, &weight_p}) datasets.push_back(std::move(*dataset));
+  using packing::SizeAgreement;
+  const auto by_species = [&](const char* name, auto value) {
+    datasets.push_back(io::column(std::string("/packing/sizes/") + name, Dimension::Number, report.sizes, value));
+  };
+  datasets.push_back(io::column("/packing/sizes/count", Dimension::Number, report.sizes,
+                                [](const SizeAgreement& s) { return s.count; }, io::Dataset::Storage::Int64));
+  by_species("number_distance", [](const SizeAgreement& s) { return s.by_number.distance; });
+  by_species("number_p_value", [](const SizeAgreement& s) { return s.by_number.p_value; });
+  by_species("weight_distance", [](const SizeAgreement& s) { return s.by_weight.distance; });
+  by_species("weight_p_value", [](const SizeAgreement& s) { return s.by_weight.p_value; });
 
   const packing::ProfileFlatness& profile = report.profile;
-  datasets.push_back({"/packing/profile/z_edges", {profile.edges.size()}, profile.edges, Dimension::Length, {}});
-  datasets.push_back({"/packing/profile/volume_fraction", {profile.volume_fraction.size()}, profile.volume_fraction,
-                      Dimension::VolumeFraction, {}});
+  datasets.push_back(io::column("/packing/profile/z_edges", Dimension::Length, profile.edges));
+  datasets.push_back(io::column("/packing/profile/volume_fraction", Dimension::VolumeFraction, profile.volume_fraction));
   scalar("profile/outer_bottom", profile.outer_bottom, Dimension::VolumeFraction);
   scalar("profile/inner", profile.inner, Dimension::VolumeFraction);
   scalar("profile/outer_top", profile.outer_top, Dimension::VolumeFraction);
@@ -165,8 +148,8 @@ void run(const app::CommandLine& line, const Options& options) {
 
   const packing::Packing packing = pack(scene, document);
   const Report report{packing::solids_of(packing.layer, scene.liquid.density), packing::smallest_gaps(packing.layer),
-                      packing::measure_flatness(packing.layer, 30), compare_sizes(packing, scene.species)};
-  tell(packing, report);
+                      packing::measure_flatness(packing.layer, 30), packing::compare_sizes(packing.layer, packing.sizes)};
+  tell(packing, report, names);
   io::write_packing(line.common.output, packing.layer, names, datasets_of(packing, report), provenance);
 }
 

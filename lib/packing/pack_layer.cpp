@@ -22,9 +22,9 @@ constexpr double densest = 0.7405;
 // gap away. A millionth of a nanometre.
 constexpr double guard = 1e-9;
 
-std::string solids_text(const Recipe& recipe, double volume_fraction) {
-  if (!recipe.layer.solids_by_weight) return fmt::format("{:.4g} vol%", 100 * volume_fraction);
-  return fmt::format("{:.4g} wt% ({:.1f} vol%)", 100 * recipe.layer.solids, 100 * volume_fraction);
+std::string solids_text(const LayerParameters& layer, double volume_fraction) {
+  if (!layer.solids_by_weight) return fmt::format("{:.4g} vol%", 100 * volume_fraction);
+  return fmt::format("{:.4g} wt% ({:.1f} vol%)", 100 * layer.solids, 100 * volume_fraction);
 }
 
 std::vector<SizeDistribution> distributions_of(const std::vector<Species>& species) {
@@ -43,11 +43,7 @@ std::vector<SizeDistribution> distributions_of(const std::vector<Species>& speci
 void refuse_impossible(const Recipe& recipe, const LayerTarget& target, const std::vector<SizeDistribution>& sizes) {
   if (recipe.species.empty()) throw InputError("particles: no species is given, so there is nothing to pack");
   const double gap = recipe.packing.minimum_gap;
-  if (target.volume_fraction > densest)
-    throw Impossible("layer", "solids", fmt::format(
-        "{} cannot be packed: equal spheres fill 74 % of space at the densest, and random packings of "
-        "mixed sizes jam at about 64 to 73 %; coating colours go to about 78 wt%",
-        solids_text(recipe, target.volume_fraction)));
+  if (const auto why = too_dense(recipe.layer, target.volume_fraction)) throw Impossible("layer", "solids", *why);
   double largest = 0;
   for (const SizeDistribution& s : sizes) largest = std::max(largest, s.largest());
   if (recipe.layer.width < 2 * largest)
@@ -99,6 +95,14 @@ void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const 
 
 }  // namespace
 
+std::optional<std::string> too_dense(const LayerParameters& layer, double volume_fraction) {
+  if (!(volume_fraction > densest)) return std::nullopt;
+  return fmt::format(
+      "{} cannot be packed: equal spheres fill 74 % of space at the densest, and random packings of mixed sizes jam at "
+      "about 64 to 73 %; coating colours go to about 78 wt%",
+      solids_text(layer, volume_fraction));
+}
+
 Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
   Packing packing;
   packing.sizes = distributions_of(recipe.species);
@@ -137,7 +141,7 @@ Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
       throw Impossible("layer", "solids", fmt::format(
           "no packing without overlaps was found at {} with a minimum gap of {:.4g} um: after {} steps the "
           "deepest overlap is still {:.3g} nm; lower the solids or packing.minimum_gap, or take a wider size law",
-          solids_text(recipe, packing.target.volume_fraction), recipe.packing.minimum_gap, relaxation.steps,
+          solids_text(recipe.layer, packing.target.volume_fraction), recipe.packing.minimum_gap, relaxation.steps,
           1e3 * relaxation.largest_overlap));
   }
   packing.acceptance = equilibrate(slab, kept_apart, layer.position, recipe.packing.equilibration_sweeps, recipe.seed,

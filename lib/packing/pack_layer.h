@@ -2,6 +2,7 @@
 // From a recipe to a layer of particles that do not touch.
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Packing {
   int relaxation_steps = 0;              // that removing the overlaps took
   double acceptance = 0;                 // of the Monte-Carlo moves
 };
+
+// Why no packing holds so much; nothing where one may. volume_fraction is what layer.solids comes to.
+std::optional<std::string> too_dense(const LayerParameters&, double volume_fraction);
 
 // fraction (0..1) of the stage that is named.
 using OnProgress = std::function<void(const std::string& stage, double fraction)>;

@@ -57,6 +57,17 @@ KolmogorovSmirnov compare_weights(std::vector<double> diameter, const SizeDistri
   return {distance, kolmogorov_probability(distance, sum * sum / sum2)};
 }
 
+std::vector<SizeAgreement> compare_sizes(const Layer& layer, const std::vector<SizeDistribution>& sizes) {
+  std::vector<SizeAgreement> result;
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    std::vector<double> diameter;
+    for (std::size_t i = 0; i < layer.particles.size(); ++i)
+      if (layer.particles.species[i] == static_cast<int>(s)) diameter.push_back(2 * layer.particles.radius[i]);
+    result.push_back({diameter.size(), compare_numbers(diameter, sizes[s]), compare_weights(diameter, sizes[s])});
+  }
+  return result;
+}
+
 ProfileFlatness measure_flatness(const Layer& layer, int slices) {
   ProfileFlatness result;
   const double height = layer.cell.height, area = layer.cell.area();

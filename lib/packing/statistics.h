@@ -17,6 +17,12 @@ struct KolmogorovSmirnov {
 // (sum v)^2 / sum v^2, then stands for the count). A monodisperse species agrees with its law: distance 0.
 KolmogorovSmirnov compare_numbers(std::vector<double> diameter, const SizeDistribution&);
 KolmogorovSmirnov compare_weights(std::vector<double> diameter, const SizeDistribution&);
+// Of each species of a layer.
+struct SizeAgreement {
+  std::size_t count = 0;
+  KolmogorovSmirnov by_number, by_weight;
+};
+std::vector<SizeAgreement> compare_sizes(const Layer&, const std::vector<SizeDistribution>&);
 // P(distance >= d) for n independent draws: Kolmogorov's limit with Stephens's correction for finite n [stephens1970].
 double kolmogorov_probability(double distance, double effective_count);
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "model/size_distribution.h"
+#include "packing/pack_layer.h"
 
 namespace pigment::scene {
 namespace {
@@ -45,6 +46,9 @@ void check_layer(config::Node& root, const Scene& scene) {
   if (!layer.failed("thickness") && scene.layer->thickness && *scene.layer->thickness < diameter)
     layer.error("thickness", fmt::format("{:.6g} um is thinner than the largest particle ({:.6g} um)",
                                          *scene.layer->thickness, diameter));
+  if (layer.failed("solids") || scene.species.empty()) return;
+  const double solids = layer_target(*scene.layer, scene.species, scene.liquid.density).volume_fraction;
+  if (const auto why = packing::too_dense(*scene.layer, solids)) layer.error("solids", *why);
 }
 
 void check_dewatering(config::Node& root, const Scene& scene) {
