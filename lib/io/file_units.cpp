@@ -27,7 +27,10 @@ Dimension dimension_of_unit(const std::string& unit) {
 }
 
 std::string unit_of(const h5::InputFile& file, const std::string& path) {
-  return file.text_attribute(path, "unit").value_or("");
+  const auto unit = file.text_attribute(path, "unit");
+  // Also what a lost text reads as.
+  if (unit && unit->empty()) file.fail(path, "its unit is empty; a number without a dimension has the unit 1");
+  return unit.value_or("");
 }
 
 FileToEngine file_to_engine(const h5::InputFile& file, const std::string& path, Dimension dimension) {
@@ -35,7 +38,8 @@ FileToEngine file_to_engine(const h5::InputFile& file, const std::string& path, 
   const std::string unit = unit_of(file, path);
   if (unit.empty() || unit == info(dimension).si_unit) return {engine_per_si, 0};
   const UnitConversion c = conversion_to_si(unit, dimension);
-  if (!c.ok) file.fail(path, "its unit " + c.error);
+  if (!c.ok)
+    file.fail(path, dimension == Dimension::Number ? fmt::format("its unit \"{}\" is not known", unit) : "its unit " + c.error);
   return {c.factor * engine_per_si, c.offset * engine_per_si};
 }
 

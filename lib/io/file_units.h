@@ -10,9 +10,9 @@ namespace pigment::io {
 
 // The dimension whose SI unit this is, or else the first that it converts to; Number where it is none.
 Dimension dimension_of_unit(const std::string& unit);
-// The dataset's `unit`; empty where it has none.
+// The dataset's `unit`; empty where it has none. Throws FileError where it is there and empty.
 std::string unit_of(const h5::InputFile&, const std::string& path);
-// Engine value = factor * stored + offset. No unit means SI; throws FileError for a unit of another dimension.
+// Engine value = factor * stored + offset. No unit means SI; throws FileError for a unit of another dimension, or of none.
 struct FileToEngine {
   double factor = 1, offset = 0;
 };

@@ -100,7 +100,7 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
-  Handle create(const std::string& path, const Extent&, std::int64_t type, std::int64_t fill_with_nan_type) const;
+  Handle create(const std::string& path, const Extent&, std::int64_t type) const;
   void make_parent(const std::string& path);
   void raw_attribute(const std::string& object, const std::string& name, std::int64_t type, std::int64_t space,
                      const void* value) const;
@@ -138,7 +138,9 @@ class InputFile {
   [[noreturn]] void fail(const std::string& path, const std::string& what) const;
 
  private:
+  int object_kind(const std::string& path) const;
   Handle open_dataset(const std::string& path) const;
+  Handle open_attribute(const std::string& object, const std::string& name) const;
   template <typename T>
   std::vector<T> read(const std::string& path, std::int64_t memory_type) const;
   std::filesystem::path name_;

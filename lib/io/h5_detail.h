@@ -2,6 +2,7 @@
 // Shared by h5_input.cpp and h5_output.cpp only: HDF5's own header must not reach further.
 #include <hdf5.h>
 
+#include <limits>
 #include <string>
 
 #include "io/h5.h"
@@ -22,5 +23,8 @@ inline Handle simple_space(const Extent& shape) {
 }
 Handle text_type(std::size_t length, bool ascii = false);  // fixed length, or H5T_VARIABLE; else UTF-8
 Type type_of(hid_t datatype);
+
+// What an integer reads as where its chunk is lost (floats read as not-a-number).
+inline constexpr std::int64_t lost_integer = std::numeric_limits<std::int64_t>::min();
 
 }  // namespace pigment::io::h5

@@ -171,31 +171,36 @@ void InputFile::fail(const std::string& path, const std::string& what) const {
   throw FileError(fmt::format("{}: {}: {}", name_.string(), path, what));
 }
 
-bool InputFile::has(const std::string& path) const {
-  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+// What a path leads to: H5I_GROUP, H5I_DATASET, ...; H5I_BADID where there is nothing, or a soft link that leads nowhere.
+// Nothing is what the absence of an optional object looks like, so damage must not look the same.
+int InputFile::object_kind(const std::string& path) const {
+  int kind = H5I_GROUP;  // the root's
+  for (std::size_t end = 0; end != std::string::npos && path != "/";) {
+    if (kind != H5I_GROUP) return H5I_BADID;  // nothing lies below a dataset
+    end = path.find('/', end + 1);
     const std::string part = path.substr(0, end);
-    if (part != "/" && !part.empty() && H5Lexists(file_.id(), part.c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) break;
+    const htri_t there = H5Lexists(file_.id(), part.c_str(), H5P_DEFAULT);
+    if (there == 0) return H5I_BADID;
+    H5L_info_t link;
+    if (there < 0 || H5Lget_info(file_.id(), part.c_str(), &link, H5P_DEFAULT) < 0)
+      fail(part, "cannot be looked up, the file is damaged: " + reason());
+    if (link.type != H5L_TYPE_HARD && H5Oexists_by_name(file_.id(), part.c_str(), H5P_DEFAULT) <= 0) return H5I_BADID;
+    const Handle object(H5Oopen(file_.id(), part.c_str(), H5P_DEFAULT), H5Oclose);
+    if (!object) fail(part, "cannot be opened, the file is damaged: " + reason());
+    kind = H5Iget_type(object.id());
   }
-  return path == "/" || H5Oexists_by_name(file_.id(), path.c_str(), H5P_DEFAULT) > 0;
+  return kind;
 }
 
-bool InputFile::is_group(const std::string& path) const {
-  if (!has(path)) return false;
-  const Handle object(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), H5Oclose);
-  return object && H5Iget_type(object.id()) == H5I_GROUP;
-}
-bool InputFile::is_dataset(const std::string& path) const {
-  if (!has(path)) return false;
-  const Handle object(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), H5Oclose);
-  if (!object) fail(path, "cannot be opened: " + reason());
-  return H5Iget_type(object.id()) == H5I_DATASET;
-}
+bool InputFile::has(const std::string& path) const { return object_kind(path) != H5I_BADID; }
+bool InputFile::is_group(const std::string& path) const { return object_kind(path) == H5I_GROUP; }
+bool InputFile::is_dataset(const std::string& path) const { return object_kind(path) == H5I_DATASET; }
 
 std::vector<std::string> InputFile::children(const std::string& path) const {
   std::vector<std::string> names;
   const Handle group(H5Gopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Gclose);
-  if (!group || H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0)
+  // Not in order of name: for that HDF5 1.10 makes a table, which it frees unfilled where the file is damaged.
+  if (!group || H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect_name, &names) < 0)
     fail(path, "cannot be listed: " + reason());
   std::sort(names.begin(), names.end());
   return names;
@@ -204,7 +209,7 @@ std::vector<std::string> InputFile::children(const std::string& path) const {
 std::vector<std::string> InputFile::attributes(const std::string& path) const {
   std::vector<std::string> names;
   const Handle object(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), H5Oclose);
-  if (!object || H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names) < 0)
+  if (!object || H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect_attribute, &names) < 0)
     fail(path, "its attributes cannot be listed: " + reason());
   std::sort(names.begin(), names.end());
   return names;
@@ -249,6 +254,8 @@ std::vector<T> InputFile::read(const std::string& path, std::int64_t memory_type
   }
   if (!values.empty() && H5Dread(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(path, "cannot be read, the file is damaged: " + reason());
+  if (type == Type::Int64 && std::find(values.begin(), values.end(), static_cast<T>(lost_integer)) != values.end())
+    fail(path, "cannot be read, the file is damaged: a part of it is not found");
   return values;
 }
 
@@ -301,20 +308,30 @@ std::vector<std::string> InputFile::texts(const std::string& path) const {
   return *texts;
 }
 
+Handle InputFile::open_attribute(const std::string& object, const std::string& attribute) const {
+  const htri_t there = H5Aexists_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT);
+  if (there == 0 || (there < 0 && !has(object))) return {};
+  Handle handle(H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!handle) fail(object, "attribute " + attribute + " cannot be read, the file is damaged: " + reason());
+  return handle;
+}
+
 Type InputFile::attribute_type(const std::string& object, const std::string& attribute) const {
-  const Handle handle(H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle handle = open_attribute(object, attribute);
   const Handle stored(handle ? H5Aget_type(handle.id()) : -1, H5Tclose);
   return stored ? type_of(stored.id()) : Type::Other;
 }
 
 std::optional<std::vector<std::string>> InputFile::texts_attribute(const std::string& object,
                                                                    const std::string& attribute) const {
-  if (H5Aexists_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
-  const Handle handle(H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle handle = open_attribute(object, attribute);
+  if (!handle) return std::nullopt;
   const Handle stored(H5Aget_type(handle.id()), H5Tclose), space(H5Aget_space(handle.id()), H5Sclose);
   if (H5Tget_class(stored.id()) != H5T_STRING) return std::nullopt;
-  return read_texts(stored.id(), space.id(),
-                    [&](hid_t memory, void* buffer) { return H5Aread(handle.id(), memory, buffer) >= 0; });
+  auto texts = read_texts(stored.id(), space.id(),
+                          [&](hid_t memory, void* buffer) { return H5Aread(handle.id(), memory, buffer) >= 0; });
+  if (!texts) fail(object, "attribute " + attribute + " cannot be read, the file is damaged: " + reason());
+  return texts;
 }
 
 std::optional<std::string> InputFile::text_attribute(const std::string& object, const std::string& attribute) const {
@@ -325,8 +342,8 @@ std::optional<std::string> InputFile::text_attribute(const std::string& object, 
 
 std::optional<std::vector<double>> InputFile::number_attribute(const std::string& object,
                                                                const std::string& attribute) const {
-  if (H5Aexists_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
-  const Handle handle(H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle handle = open_attribute(object, attribute);
+  if (!handle) return std::nullopt;
   const Handle stored(H5Aget_type(handle.id()), H5Tclose), space(H5Aget_space(handle.id()), H5Sclose);
   const Type type = type_of(stored.id());
   if (type == Type::Text || type == Type::Other) return std::nullopt;

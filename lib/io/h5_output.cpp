@@ -85,8 +85,7 @@ void OutputFile::group(const std::string& path) {
   if (!made) fail(path);
 }
 
-Handle OutputFile::create(const std::string& path, const Extent& shape, std::int64_t type,
-                          std::int64_t fill_with_nan_type) const {
+Handle OutputFile::create(const std::string& path, const Extent& shape, std::int64_t type) const {
   const Handle creation = property_list(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(creation.id(), false);
   const std::size_t element = H5Tget_size(type);
@@ -99,10 +98,10 @@ Handle OutputFile::create(const std::string& path, const Extent& shape, std::int
     H5Pset_shuffle(creation.id());
     H5Pset_deflate(creation.id(), deflate_level);
     H5Pset_fletcher32(creation.id());
-    if (fill_with_nan_type >= 0) {  // a chunk that a damaged index no longer finds reads as not-a-number, not as zero
-      const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-      H5Pset_fill_value(creation.id(), H5T_NATIVE_DOUBLE, &not_a_number);
-    }
+    // A chunk that a damaged index no longer finds reads as what cannot be meant, not as zero.
+    const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    if (H5Tget_class(type) == H5T_FLOAT) H5Pset_fill_value(creation.id(), H5T_NATIVE_DOUBLE, &not_a_number);
+    if (H5Tget_class(type) == H5T_INTEGER) H5Pset_fill_value(creation.id(), H5T_NATIVE_INT64, &lost_integer);
   }
   const Handle space = simple_space(shape);
   Handle dataset(H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
@@ -115,7 +114,7 @@ void OutputFile::make_parent(const std::string& path) { group(parent_of(path)); 
 
 void OutputFile::write(const std::string& path, const Extent& shape, const double* values, Type stored) {
   make_parent(path);
-  const Handle dataset = create(path, shape, stored_type(stored), stored == Type::Int64 ? -1 : 0);
+  const Handle dataset = create(path, shape, stored_type(stored));
   if (element_count(shape) > 0 &&
       H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail(path);
@@ -123,7 +122,7 @@ void OutputFile::write(const std::string& path, const Extent& shape, const doubl
 
 void OutputFile::write(const std::string& path, const Extent& shape, const std::int64_t* values) {
   make_parent(path);
-  const Handle dataset = create(path, shape, H5T_STD_I64LE, -1);
+  const Handle dataset = create(path, shape, H5T_STD_I64LE);
   if (element_count(shape) > 0 && H5Dwrite(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail(path);
 }
@@ -131,7 +130,7 @@ void OutputFile::write(const std::string& path, const Extent& shape, const std::
 void OutputFile::write(const std::string& path, const std::string& text) {
   make_parent(path);
   const Handle type = text_type(std::max<std::size_t>(text.size(), 1));
-  const Handle dataset = create(path, {}, type.id(), -1);
+  const Handle dataset = create(path, {}, type.id());
   const std::string padded = text + '\0';
   if (H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0) fail(path);
 }
@@ -146,7 +145,7 @@ void OutputFile::write(const std::string& path, const std::vector<std::string>& 
     padded += text;
   }
   const Handle type = text_type(length);
-  const Handle dataset = create(path, {texts.size()}, type.id(), -1);
+  const Handle dataset = create(path, {texts.size()}, type.id());
   if (!texts.empty() && H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0) fail(path);
 }
 
@@ -156,7 +155,7 @@ OutputFile::Rows OutputFile::create_rows(const std::string& path, const Extent& 
   rows.file_ = this;
   rows.path_ = path;
   rows.shape_ = shape;
-  rows.dataset_ = create(path, shape, stored_type(stored), stored == Type::Int64 ? -1 : 0);
+  rows.dataset_ = create(path, shape, stored_type(stored));
   return rows;
 }
 

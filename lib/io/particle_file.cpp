@@ -347,10 +347,7 @@ std::vector<double> ParticleFile::observable(const std::string& name) const {
   if (!file.is_dataset(value)) return {};
   const std::string unit = unit_of(file, value);
   const Dimension dimension = dimension_of_unit(unit);
-  if (dimension != Dimension::Number) return read_quantity(file, value, dimension);
-  std::vector<double> values = file.doubles(value);
-  require_finite(file, value, values);
-  return values;
+  return read_quantity(file, value, dimension);
 }
 
 std::vector<double> ParticleFile::observable_time(const std::string& name) const {

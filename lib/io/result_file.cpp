@@ -42,13 +42,7 @@ void read_below(const h5::InputFile& file, const std::string& group, const std::
       dataset.storage = storage_of(file.type(path));
       const auto listed = dimensions.find(path);
       dataset.dimension = listed != dimensions.end() ? listed->second : dimension_of_unit(unit_of(file, path));
-      // A unit of no dimension known here stays as it is.
-      if (listed != dimensions.end() || dataset.dimension != Dimension::Number) {
-        dataset.values = read_quantity(file, path, dataset.dimension);
-      } else {
-        dataset.values = file.doubles(path);
-        require_finite(file, path, dataset.values);
-      }
+      dataset.values = read_quantity(file, path, dataset.dimension);
       out.push_back(std::move(dataset));
     }
   }
