@@ -1,4 +1,5 @@
-// What the documents say of the program: every key of a scene has its line in docs/scenes.md.
+// What the documents say of the program: every key of a scene has its line in docs/scenes.md, every
+// tool its name in README.md, every link its file.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -28,6 +29,12 @@ TEST(Documents, EveryKeyOfASceneIsExplained) {
       EXPECT_TRUE(std::regex_search(page, std::regex("\\b" + key + "\\b"))) << path_in_tree(file) << " reads \"" << key << "\"";
     }
   EXPECT_TRUE(keys.contains("thickness") && keys.contains("strategy") && keys.contains("layer")) << "calls are not recognised";
+}
+
+TEST(Documents, ReadmeNamesEveryTool) {
+  const std::string readme = text_of(source_root() / "README.md");
+  for (const fs::path& file : sources_below("tools"))
+    EXPECT_NE(readme.find("`pigment-" + file.stem().string() + "`"), std::string::npos) << path_in_tree(file);
 }
 
 TEST(Documents, LinksLeadSomewhere) {
