@@ -137,11 +137,13 @@ void overlay(Tree& root, const std::string& assignment) {
   if (!errors.empty()) fail(errors.front().path + ": " + errors.front().message);
   clear_lines(value);
 
+  const bool takes_out = value.kind == Tree::Kind::Null;
   Tree* at = &root;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string& part = parts[i];
     if (part.empty()) fail("a part of the key is empty");
     if (at->kind == Tree::Kind::Null) {  // a block that the scene does not have is made
+      if (takes_out) return;
       at->kind = is_index(part) ? Tree::Kind::List : Tree::Kind::Map;
       at->line = 0;
     }
@@ -152,10 +154,12 @@ void overlay(Tree& root, const std::string& assignment) {
       std::from_chars(part.data(), part.data() + part.size(), index);
       if (index > at->children.size())
         fail(fmt::format("index {} is past the end of a list of {}", index, at->children.size()));
+      if (index == at->children.size() && takes_out) return;
       if (index == at->children.size()) at->children.emplace_back();
       next = &at->children[index];
     } else if (at->kind == Tree::Kind::Map) {
       next = at->find(part);
+      if (next == nullptr && takes_out) return;  // is not there anyway
       if (next == nullptr) {
         at->children.emplace_back().key = part;
         next = &at->children.back();
@@ -163,7 +167,7 @@ void overlay(Tree& root, const std::string& assignment) {
     } else {
       fail(fmt::format("\"{}\" is a value (\"{}\"), not a block", parts[i - 1], at->scalar));
     }
-    if (i + 1 == parts.size() && value.kind == Tree::Kind::Null) {
+    if (i + 1 == parts.size() && takes_out) {
       at->children.erase(at->children.begin() + (next - at->children.data()));
       return;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "dewatering/profile.h"
 #include "model/size_distribution.h"
 #include "packing/pack_layer.h"
 
@@ -57,6 +58,18 @@ void check_dewatering(config::Node& root, const Scene& scene) {
   for (const char* key : {"solids", "thickness", "coat_weight"})
     if (layer.failed(key)) return;
   dewatering::check_dewatering(root.block("dewatering"), *scene.dewatering, coating_of(scene));
+}
+
+// Final solids that no scale of the fluxes reaches. A table is judged where it is read.
+void check_final_solids(config::Node& root, const Scene& scene) {
+  if (!scene.dewatering || scene.dewatering->strategy == dewatering::Strategy::Table || !scene.layer || scene.species.empty())
+    return;
+  try {
+    dewatering::make_profile(*scene.dewatering, coating_of(scene));
+  } catch (const InputError& e) {
+    const std::string said = e.what(), own_path = "dewatering.final_solids: ";
+    root.block("dewatering").error("final_solids", said.starts_with(own_path) ? said.substr(own_path.size()) : said);
+  }
 }
 
 // A law whose cut-offs leave nothing of it. A table is judged where it is read.
@@ -113,6 +126,7 @@ Scene read_scene(config::Document& document, const std::string& stage_name) {
   if (!document.has_errors()) check_sizes(root, scene);  // with stand-ins for bad values it would only add noise
   check_layer(root, scene);
   check_dewatering(root, scene);
+  if (!document.has_errors()) check_final_solids(root, scene);
   check_surface(root, scene, stage_name);
   document.check();
   return scene;

@@ -154,7 +154,8 @@ TEST(Document, OverridesAreLaidOver) {
 }
 
 TEST(Document, OverridesCanTakeABlockOut) {
-  Document d = Document::from_text("gravity: {g: 1}\nb: {c: 1}\n", "s.yaml", {"gravity=", "b.c=null"});
+  Document d = Document::from_text("gravity: {g: 1}\nb: {c: 1}\n", "s.yaml", {"gravity=", "b.c=null", "free_surface.roughness=", "list.3="});
+  EXPECT_EQ(d.root().keys(), std::vector<std::string>{"b"});
   EXPECT_FALSE(d.root().has("gravity"));
   EXPECT_TRUE(d.root().block("b").keys().empty());
 }

@@ -143,6 +143,9 @@ TEST(Scene, BlocksAreCheckedAgainstEachOther) {
   EXPECT_EQ(refusal(whole, "scene", {"free_surface=", "dewatering.strategy=ABS"}), "accepted");
   EXPECT_NE(refusal(whole, "scene", {"dewatering.final_solids=60 wt%"}).find("dewatering.final_solids: must exceed"),
             std::string::npos);
+  EXPECT_NE(refusal(whole, "scene", {"dewatering.strategy=EVA", "dewatering.evaporation.high=0 g/m2/s", "dewatering.evaporation.low=0 g/m2/s"})
+                .find("s.yaml:25: dewatering.final_solids: the fluxes remove no liquid"),
+            std::string::npos);
   EXPECT_NE(refusal(whole, "scene", {"free_surface.model=pressure_limited"}).find("free_surface.max: missing"),
             std::string::npos);
   EXPECT_NE(refusal(whole, "scene", {"particles.0.size.min=1.9 m"}).find("particles.0.size.min:"), std::string::npos);
