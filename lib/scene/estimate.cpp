@@ -90,9 +90,8 @@ CostEstimate estimate_cost(const Scene& scene, const LayerEstimate& layer, doubl
       shell += Particles::sphere_volume(a + b + gap) - Particles::sphere_volume(a + b);
     }
   shell /= sample * sample;
-  const double phi = layer.volume_fraction;
   const double density = layer.particles / (layer.thickness * scene.layer->width * scene.layer->width);
-  c.pairs = 0.5 * layer.particles * density * shell * (1 - phi / 2) / std::pow(1 - phi, 3);
+  c.pairs = 0.5 * layer.particles * density * shell * (1 + 0.75 * layer.volume_fraction);
   c.steps = duration / scene.stepping.time_step.value_or(usual_step);
   c.frames = 1 + std::floor(duration / scene.output.every);
   c.seconds = seconds_per_particle_step * c.particles * c.steps;

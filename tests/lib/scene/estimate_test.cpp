@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "neighbours/pair_search.h"
+#include "packing/pack_layer.h"
+
 namespace pigment::scene {
 namespace {
 
@@ -69,6 +72,21 @@ TEST(RateEstimate, MeanRateTimesDurationIsWhatIsRemoved) {
   EXPECT_NEAR(r.removed, 9.96, 5e-3);  // 25 um from 65 to 85 wt%: 9.96 um of water
   EXPECT_LT(r.slowest, r.mean);
   EXPECT_LT(r.mean, r.fastest);
+}
+
+// Against pairs counted in packings. 25 %: what the estimate claims.
+TEST(CostEstimate, PairsAreThoseOfAPacking) {
+  for (const std::string& text :
+       {coating("{thickness: 8 um, solids: 65 wt%, width: 5 um}"),
+        std::string("layer: {thickness: 8 um, solids: 65 wt%, width: 5 um}\n"
+                    "particles: [{size: {law: monodisperse, diameter: 0.5 um}}]\n")}) {
+    const Scene s = read(text + "colloidal: {van_der_waals: {cutoff: 200 nm}}\n");
+    const auto packing = packing::pack_layer({*s.layer, s.packing, s.species, s.liquid.density, 1});
+    const auto pairs = neighbours::find_pairs(packing.layer.cell, packing.layer.position, packing.layer.particles.radius,
+                                              {s.hydrodynamics.taper.squeeze_end, 0.2, 0});
+    const auto c = estimate_cost(s, estimate_layer(s), 500);
+    EXPECT_NEAR(c.pairs / static_cast<double>(pairs.size()), 1, 0.25) << c.pairs << " against " << pairs.size();
+  }
 }
 
 TEST(CostEstimate, FollowsStepsAndFrames) {
