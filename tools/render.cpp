@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <tuple>
 
 #include "analysis/clusters.h"
 #include "app/tool.h"
@@ -12,7 +12,7 @@
 #include "io/particle_file.h"
 #include "report/layer_picture.h"
 #include "report/picture_options.h"
-#include "report/ticks.h"
+#include "report/run_files.h"
 
 namespace {
 
@@ -21,25 +21,33 @@ using report::ParticleColours;
 
 struct Options {
   app::path input;
-  std::string frame = "last", time, frames, view = "side", colour = "size", cut, size = "1600x1200", threshold = "20 nm";
+  std::string frame = "last", time, frames, view = "side", colour = "size", cut, size = "1600x1200",
+              threshold = "20 nm";
   int contact_sheet = 0, columns = 0, repeat = 1, samples = 3;
   double azimuth = 32, elevation = 24;
   bool perspective = false, sawn = false, no_surface = false, no_substrate = false, bare = false;
 };
 
 void declare(app::CommandLine& line, Options& o) {
-  line.describe("Draws a layer of particles: lit spheres, cut where asked, with scale and colour bars.",
-                "pigment-render trajectory.h5 --time 0.2s --view oblique --cut y=2.5um --colour size -o layer.png");
+  line.describe(
+      "Draws a layer of particles: lit spheres, cut where asked, with scale and colour bars.",
+      "pigment-render trajectory.h5 --time 0.2s --view oblique --cut y=2.5um --colour size -o layer.png");
   line.positional("particles", o.input, "a packing or trajectory (HDF5)");
   line.option("--frame", o.frame, "number of the frame, from 0; or last");
   line.option("--time", o.time, "the frame nearest to this time, e.g. 0.2s, in place of --frame");
-  line.option("--frames", o.frames, "a sequence, one picture each (NAME.0000.png, ...): all, or FIRST:LAST or FIRST:LAST:STEP");
+  line.option("--frames", o.frames,
+              "a sequence, one picture each (NAME.0000.png, ...): all, or FIRST:LAST or FIRST:LAST:STEP");
   line.option("--contact-sheet", o.contact_sheet, "this many frames, evenly in time, in one picture");
   line.option("--columns", o.columns, "columns of the contact sheet (0: chosen to suit)");
   line.option("--view", o.view, "side, top or oblique");
-  line.option("--colour,--color", o.colour, "size, species, height, velocity (at that frame), global-velocity (over the whole run), cluster");
-  line.option("--cut", o.cut, "takes away what lies in front of a plane: y=2.5um; or keeps one side: \"y>2.5um\"; several with commas");
-  line.option("--threshold", o.threshold, "clusters: particles whose surfaces are closer than this hang together");
+  line.option(
+      "--colour,--color", o.colour,
+      "size, species, height, velocity (at that frame), global-velocity (over the whole run), cluster");
+  line.option("--cut", o.cut,
+              "takes away what lies in front of a plane: y=2.5um; or keeps one side: \"y>2.5um\"; several "
+              "with commas");
+  line.option("--threshold", o.threshold,
+              "clusters: particles whose surfaces are closer than this hang together");
   line.option("--size", o.size, "of a picture, in pixels: WIDTHxHEIGHT");
   line.option("--repeat", o.repeat, "periodic copies side by side");
   line.option("--samples", o.samples, "rays a pixel and direction, 1 to 8: smoothness of edges");
@@ -61,42 +69,57 @@ std::vector<double> speeds_at(const io::ParticleFile& file, std::size_t k) {
   for (const Vec3& v : frame.velocity) speed.push_back(v.norm());
   if (!speed.empty()) return speed;
   if (file.frame_count() < 2)
-    throw InputError(fmt::format("--colour velocity: {} has no velocities and one frame only", file.path().string()));
-  const io::Frame before = file.frame(k == 0 ? 0 : k - 1), after = file.frame(std::min(k + 1, file.frame_count() - 1));
+    throw InputError(
+        fmt::format("--colour velocity: {} has no velocities and one frame only", file.path().string()));
+  const io::Frame before = file.frame(k == 0 ? 0 : k - 1),
+                  after = file.frame(std::min(k + 1, file.frame_count() - 1));
   const double span = after.time - before.time;
-  for (std::size_t i = 0; i < after.position.size(); ++i) speed.push_back(span > 0 ? (after.position[i] - before.position[i]).norm() / span : 0);
+  for (std::size_t i = 0; i < after.position.size(); ++i)
+    speed.push_back(span > 0 ? (after.position[i] - before.position[i]).norm() / span : 0);
   return speed;
 }
 
 std::vector<double> global_speeds(const io::ParticleFile& file) {
   const io::Frame first = file.frame(0), last = file.frame(file.frame_count() - 1);
-  if (!(last.time > first.time)) throw InputError(fmt::format("--colour global-velocity: {} covers no time", file.path().string()));
+  if (!(last.time > first.time))
+    throw InputError(fmt::format("--colour global-velocity: {} covers no time", file.path().string()));
   std::vector<double> speed;
-  for (std::size_t i = 0; i < last.position.size(); ++i) speed.push_back((last.position[i] - first.position[i]).norm() / (last.time - first.time));
+  for (std::size_t i = 0; i < last.position.size(); ++i)
+    speed.push_back((last.position[i] - first.position[i]).norm() / (last.time - first.time));
   return speed;
 }
 
 // The frames' colours, on one scale for all but velocity, whose scale is each frame's own.
-std::vector<ParticleColours> colours_of(const io::ParticleFile& file, const std::vector<std::size_t>& frames, const Options& o) {
+std::vector<ParticleColours> colours_of(const io::ParticleFile& file, const std::vector<std::size_t>& frames,
+                                        const Options& o) {
   const double highest = file.layer(0).cell.height;
   const double threshold = report::quantity_option("--threshold", o.threshold, Dimension::Length);
   std::vector<ParticleColours> all;
   for (const std::size_t k : frames) {
-    if (o.colour == "size") all.push_back(report::colours_by_size(file.particles()));
-    else if (o.colour == "species") all.push_back(report::colours_by_species(file.particles(), file.species_names()));
-    else if (o.colour == "height") all.push_back(report::colours_by_height(file.layer(k), highest));
-    else if (o.colour == "velocity") all.push_back(report::colours_by_speed("speed", speeds_at(file, k)));
-    else if (o.colour == "global-velocity") all.push_back(report::colours_by_speed("speed over the run", global_speeds(file)));
+    if (o.colour == "size")
+      all.push_back(report::colours_by_size(file.particles()));
+    else if (o.colour == "species")
+      all.push_back(report::colours_by_species(file.particles(), file.species_names()));
+    else if (o.colour == "height")
+      all.push_back(report::colours_by_height(file.layer(k), highest));
+    else if (o.colour == "velocity")
+      all.push_back(report::colours_by_speed("speed", speeds_at(file, k)));
+    else if (o.colour == "global-velocity")
+      all.push_back(report::colours_by_speed("speed over the run", global_speeds(file)));
     else if (o.colour == "cluster") {
       const Layer layer = file.layer(k);
-      const auto clusters = analysis::find_clusters({0, layer.cell, layer.position}, layer.particles.radius, layer.particles.id, threshold);
+      const auto clusters = analysis::find_clusters({0, layer.cell, layer.position}, layer.particles.radius,
+                                                    layer.particles.id, threshold);
       all.push_back(report::colours_by_cluster({clusters.size.begin(), clusters.size.end()}));
     } else {
-      throw InputError(fmt::format("--colour: \"{}\" is none of size, species, height, velocity, global-velocity, cluster", o.colour));
+      throw InputError(fmt::format(
+          "--colour: \"{}\" is none of size, species, height, velocity, global-velocity, cluster", o.colour));
     }
   }
   if (o.colour == "cluster")
-    for (ParticleColours& c : all) c.high = std::max_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.high < b.high; })->high;
+    for (ParticleColours& c : all)
+      c.high =
+          std::max_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.high < b.high; })->high;
   return all;
 }
 
@@ -111,11 +134,13 @@ void run(const app::CommandLine& line, const Options& o) {
   settings.azimuth = o.azimuth;
   settings.elevation = report::range_option("--elevation", o.elevation, 0, 90);
   settings.perspective = o.perspective, settings.sawn = o.sawn;
-  settings.surface = !o.no_surface, settings.substrate = !o.no_substrate;
   settings.scale_bar = settings.colour_bar = !o.bare;
 
   const io::ParticleFile file(o.input);
+  const report::Surroundings around = report::surroundings_of(file.provenance());
   if (file.particle_count() == 0) throw FileError(fmt::format("{}: holds no particles", o.input.string()));
+  settings.surface = around.free_surface && !o.no_surface;
+  settings.substrate = around.substrate && !o.no_substrate;
   const auto frames = report::frames_option(file.times(), o.frame, o.time, o.frames, o.contact_sheet);
   const auto colours = colours_of(file, frames, o);
   settings.framed_height = report::framed_height(file, frames);
@@ -123,10 +148,14 @@ void run(const app::CommandLine& line, const Options& o) {
   std::vector<report::Image> sheet;
   Progress progress("drawing");
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    settings.caption = o.bare || file.frame_count() < 2 ? "" : "t = " + report::time_text(file.times()[frames[i]]);
+    settings.caption =
+        o.bare || file.frame_count() < 2 ? "" : "t = " + report::time_text(file.times()[frames[i]]);
     const report::Image image = report::draw_layer(file.layer(frames[i]), colours[i], settings);
-    if (o.contact_sheet > 0) sheet.push_back(image);
-    else report::write_png(o.frames.empty() ? line.common.output : report::numbered(line.common.output, frames[i]), image);
+    if (o.contact_sheet > 0)
+      sheet.push_back(image);
+    else
+      report::write_png(
+          o.frames.empty() ? line.common.output : report::numbered(line.common.output, frames[i]), image);
     progress.update(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   if (o.contact_sheet > 0) report::write_png(line.common.output, report::contact_sheet(sheet, o.columns));
@@ -138,5 +167,6 @@ void run(const app::CommandLine& line, const Options& o) {
 int main(int argc, char** argv) {
   Options options;
   return app::run_tool(
-      "render", argc, argv, [&](auto& line) { declare(line, options); }, [&](auto& line) { run(line, options); });
+      "render", argc, argv, [&](auto& line) { declare(line, options); },
+      [&](auto& line) { run(line, options); });
 }

@@ -18,12 +18,17 @@ struct Options {
 
 void declare(app::CommandLine& line, Options& o) {
   line.describe(
-      "Writes one HTML page, complete in itself, from any of pigment's files: what is given is shown, what is missing is left "
+      "Writes one HTML page, complete in itself, from any of pigment's files: what is given is shown, what "
+      "is missing is left "
       "out. Files of one folder are one run.",
-      "pigment-report packing.h5 dewatering.h5 trajectory.h5 solids.h5 cluster.h5 separation.h5 -o report.html");
-  line.positional("files", o.files, "packing, dewatering, kbrown, trajectory, solids, cluster, separation, mobility (HDF5), in any order");
+      "pigment-report packing.h5 dewatering.h5 trajectory.h5 solids.h5 cluster.h5 separation.h5 -o "
+      "report.html");
+  line.positional(
+      "files", o.files,
+      "packing, dewatering, kbrown, trajectory, solids, cluster, separation, mobility (HDF5), in any order");
   line.option("--title", o.title, "heading of the page");
-  line.option("--colour,--color", o.colour, "colours of the pictures: auto (species where there are several, else size), size, species");
+  line.option("--colour,--color", o.colour,
+              "colours of the pictures: auto (species where there are several, else size), size, species");
   line.output_required(true, "the page (HTML)");
   line.has_threads();
 }
@@ -33,7 +38,10 @@ void run(const app::CommandLine& line, const Options& o) {
   if (o.colour != "auto" && o.colour != "size" && o.colour != "species")
     throw InputError(fmt::format("--colour: \"{}\" is none of auto, size, species", o.colour));
   const std::vector<report::RunFiles> runs = report::gather_runs(o.files);
-  const std::string title = !o.title.empty() ? o.title : runs.size() == 1 && !runs.front().name.empty() ? "Coating layer: " + runs.front().name : "Coating layers";
+  const std::string title = !o.title.empty() ? o.title
+                            : runs.size() == 1 && !runs.front().name.empty()
+                                ? "Coating layer: " + runs.front().name
+                                : "Coating layers";
   report::PictureWishes wishes;
   wishes.colour = o.colour;
   const std::string page = report::compose_report(runs, title, wishes).page();
@@ -46,5 +54,6 @@ void run(const app::CommandLine& line, const Options& o) {
 int main(int argc, char** argv) {
   Options options;
   return app::run_tool(
-      "report", argc, argv, [&](auto& line) { declare(line, options); }, [&](auto& line) { run(line, options); });
+      "report", argc, argv, [&](auto& line) { declare(line, options); },
+      [&](auto& line) { run(line, options); });
 }

@@ -60,8 +60,9 @@ Colour from_oklch(double lightness, double chroma, double hue) {
 
 Colour sequential(double position) {
   const double t = std::clamp(position, 0.0, 1.0);
-  // Hue runs from violet (300 degrees) down to yellow (100); chroma rises at both ends, where the gamut allows it.
-  const double lightness = 0.30 + 0.62 * t;
+  // Hue runs from violet (300 degrees) down to yellow (100); chroma rises at both ends, where the gamut
+  // allows it.
+  const double lightness = 0.34 + 0.58 * t;
   const double hue = 300 - 205 * std::pow(t, 1.05);
   const double chroma = 0.125 + 0.035 * std::cos(2 * std::numbers::pi * t);
   return from_oklch(lightness, chroma, hue);
@@ -71,13 +72,13 @@ Colour categorical(std::size_t index) {
   struct Tint {
     double lightness, chroma, hue;
   };
-  static constexpr std::array<Tint, 8> tints{{{0.86, 0.055, 85},    // ivory
-                                              {0.62, 0.095, 245},   // slate blue
-                                              {0.66, 0.125, 45},    // terracotta
-                                              {0.70, 0.085, 165},   // sage
-                                              {0.58, 0.110, 305},   // mauve
-                                              {0.78, 0.110, 100},   // ochre
-                                              {0.60, 0.120, 15},    // brick
+  static constexpr std::array<Tint, 8> tints{{{0.86, 0.055, 85},     // ivory
+                                              {0.62, 0.095, 245},    // slate blue
+                                              {0.66, 0.125, 45},     // terracotta
+                                              {0.70, 0.085, 165},    // sage
+                                              {0.58, 0.110, 305},    // mauve
+                                              {0.78, 0.110, 100},    // ochre
+                                              {0.60, 0.120, 15},     // brick
                                               {0.74, 0.060, 215}}};  // mist
   const Tint& t = tints[index % tints.size()];
   return from_oklch(t.lightness, t.chroma, t.hue);

@@ -23,8 +23,8 @@ std::string to_hex(Colour);  // "#1f77b4"
 // Lightness 0..1, chroma and hue (degrees) in Oklab; out-of-gamut colours lose chroma, never lightness.
 Colour from_oklch(double lightness, double chroma, double hue);
 
-// Dark violet through teal to light yellow, with lightness rising evenly: order survives greyscale and the common
-// colour-vision deficiencies. position is clamped to 0..1.
+// Dark violet through teal to light yellow, with lightness rising evenly: order survives greyscale and the
+// common colour-vision deficiencies. position is clamped to 0..1.
 Colour sequential(double position);
 // Distinct mineral tints of similar lightness, for species; they repeat after eight.
 Colour categorical(std::size_t index);

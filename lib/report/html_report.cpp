@@ -10,17 +10,21 @@ std::string palette(double lift) {
   static constexpr double hues[8] = {252, 48, 158, 352, 88, 205, 300, 22};
   static constexpr double lightness[8] = {0.52, 0.63, 0.50, 0.56, 0.66, 0.62, 0.46, 0.50};
   std::string out;
-  for (int i = 0; i < 8; ++i) out += fmt::format("--s{}:{};", i + 1, to_hex(from_oklch(lightness[i] + lift, i == 4 || i == 5 ? 0.115 : 0.15, hues[i])));
+  for (int i = 0; i < 8; ++i)
+    out += fmt::format("--s{}:{};", i + 1,
+                       to_hex(from_oklch(lightness[i] + lift, i == 4 || i == 5 ? 0.115 : 0.15, hues[i])));
   return out;
 }
 
 std::string palette_style() {
-  return ":root{" + palette(0) + "}\n@media (prefers-color-scheme:dark){@media screen{:root{" + palette(0.19) + "}}}\n";
+  return ":root{" + palette(0) + "}\n@media (prefers-color-scheme:dark){@media screen{:root{" +
+         palette(0.19) + "}}}\n";
 }
 
 }  // namespace
 
-HtmlReport::HtmlReport(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+HtmlReport::HtmlReport(std::string title, std::string subtitle)
+    : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
 
 void HtmlReport::close_section() {
   if (open_) body_ += "</section>\n";
@@ -61,8 +65,11 @@ void HtmlReport::plots(const std::vector<Plot>& plots) {
 void HtmlReport::images(const std::vector<CaptionedImage>& images, const std::string& note) {
   body_ += "<div class=\"pictures\">\n";
   for (const CaptionedImage& i : images)
-    body_ += fmt::format("<figure><img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                         html_escape(i.description), i.image.width, i.image.height, png_data_uri(i.image), html_escape(i.caption));
+    body_ += fmt::format(
+        "<figure><img alt=\"{}\" width=\"{}\" height=\"{}\" "
+        "src=\"{}\"><figcaption>{}</figcaption></figure>\n",
+        html_escape(i.description), i.image.width, i.image.height, png_data_uri(i.image),
+        html_escape(i.caption));
   body_ += "</div>\n";
   if (!note.empty()) body_ += "<p class=\"note\">" + html_escape(note) + "</p>\n";
 }
@@ -70,16 +77,20 @@ void HtmlReport::images(const std::vector<CaptionedImage>& images, const std::st
 void HtmlReport::colours(const ColourLegend& legend) {
   body_ += "<div class=\"colours\"><span>" + html_escape(legend.label) + "</span>";
   for (std::size_t i = 0; i < legend.names.size(); ++i)
-    body_ += fmt::format("<span class=\"tint\"><i style=\"background:{}\"></i>{}</span>", html_escape(legend.colours[i]), html_escape(legend.names[i]));
+    body_ += fmt::format("<span class=\"tint\"><i style=\"background:{}\"></i>{}</span>",
+                         html_escape(legend.colours[i]), html_escape(legend.names[i]));
   if (legend.names.empty()) {
-    body_ += fmt::format("<div class=\"bar\"><i style=\"background:linear-gradient(90deg,{})\"></i>", html_escape(fmt::format("{}", fmt::join(legend.colours, ","))));
-    for (const auto& [position, label] : legend.labels) body_ += fmt::format("<span style=\"left:{:.1f}%\">{}</span>", 100 * position, html_escape(label));
+    body_ += fmt::format("<div class=\"bar\"><i style=\"background:linear-gradient(90deg,{})\"></i>",
+                         html_escape(fmt::format("{}", fmt::join(legend.colours, ","))));
+    for (const auto& [position, label] : legend.labels)
+      body_ += fmt::format("<span style=\"left:{:.1f}%\">{}</span>", 100 * position, html_escape(label));
     body_ += "</div>";
   }
   body_ += "</div>\n";
 }
 
-void HtmlReport::table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
+void HtmlReport::table(const std::vector<std::string>& head,
+                       const std::vector<std::vector<std::string>>& rows) {
   body_ += "<div class=\"scroll\"><table>";
   if (!head.empty()) {
     body_ += "<thead><tr>";
@@ -96,22 +107,32 @@ void HtmlReport::table(const std::vector<std::string>& head, const std::vector<s
 }
 
 void HtmlReport::folded(const std::string& summary, const std::string& preformatted) {
-  body_ += "<details><summary>" + html_escape(summary) + "</summary><pre>" + html_escape(preformatted) + "</pre></details>\n";
+  body_ += "<details><summary>" + html_escape(summary) + "</summary><pre>" + html_escape(preformatted) +
+           "</pre></details>\n";
 }
 
-void HtmlReport::remark(const std::string& text) { body_ += "<p class=\"remark\">" + html_escape(text) + "</p>\n"; }
+void HtmlReport::remark(const std::string& text) {
+  body_ += "<p class=\"remark\">" + html_escape(text) + "</p>\n";
+}
 
 std::string HtmlReport::page() const {
   std::string contents;
-  for (const auto& [anchor, title] : sections_) contents += fmt::format("<a href=\"#{}\">{}</a>", anchor, html_escape(title));
+  for (const auto& [anchor, title] : sections_)
+    contents += fmt::format("<a href=\"#{}\">{}</a>", anchor, html_escape(title));
   std::string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
-  out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
-         "script-src 'unsafe-inline'\">\n";
-  out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n";
-  out += "<link rel=\"icon\" href=\"data:,\">\n<title>" + html_escape(title_) + "</title>\n<style>\n" + palette_style() + page_style + "</style>\n</head>\n<body>\n";
+  out +=
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+      "'unsafe-inline'; "
+      "script-src 'unsafe-inline'\">\n";
+  out +=
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
+      "content=\"light dark\">\n";
+  out += "<link rel=\"icon\" href=\"data:,\">\n<title>" + html_escape(title_) + "</title>\n<style>\n" +
+         palette_style() + page_style + "</style>\n</head>\n<body>\n";
   out += "<header><h1>" + html_escape(title_) + "</h1>";
   if (!subtitle_.empty()) out += "<p>" + html_escape(subtitle_) + "</p>";
-  out += "</header>\n<nav>" + contents + "</nav>\n<main>\n" + body_ + (open_ ? "</section>\n" : "") + "</main>\n";
+  out += "</header>\n<nav>" + contents + "</nav>\n<main>\n" + body_ + (open_ ? "</section>\n" : "") +
+         "</main>\n";
   return out + "<script>\n" + page_script + "</script>\n</body>\n</html>\n";
 }
 

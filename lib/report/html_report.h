@@ -21,24 +21,24 @@ struct CaptionedImage {
 // What the colours of pictures mean: a scale with labels at positions 0..1, or tints by name.
 struct ColourLegend {
   std::string label;
-  std::vector<std::string> colours;                        // CSS colours: the scale's stops, or one a name
-  std::vector<std::pair<double, std::string>> labels;      // of a scale
-  std::vector<std::string> names;                          // of tints
+  std::vector<std::string> colours;                    // CSS colours: the scale's stops, or one a name
+  std::vector<std::pair<double, std::string>> labels;  // of a scale
+  std::vector<std::string> names;                      // of tints
 };
 
 class HtmlReport {
  public:
   explicit HtmlReport(std::string title, std::string subtitle = {});
 
-  void chapter(const std::string& title);                           // a run, where there are several
+  void chapter(const std::string& title);  // a run, where there are several
   void section(const std::string& title, const std::string& text = {});
   void headlines(const std::vector<Headline>&);
-  void plots(const std::vector<Plot>&);                             // side by side where there is room
+  void plots(const std::vector<Plot>&);  // side by side where there is room
   void images(const std::vector<CaptionedImage>&, const std::string& note = {});  // in one row
   void colours(const ColourLegend&);
   void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
   void folded(const std::string& summary, const std::string& preformatted);
-  void remark(const std::string& text);                             // set apart: what a reader must know
+  void remark(const std::string& text);  // set apart: what a reader must know
   bool empty() const { return sections_.empty(); }
 
   std::string page() const;  // the same bytes for the same calls

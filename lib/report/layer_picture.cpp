@@ -13,9 +13,16 @@ namespace {
 
 const Colour ink = from_srgb(38, 44, 54), soft_ink = from_srgb(92, 100, 112);
 
+Camera direction_of(const PictureSettings& s) {
+  return s.view == View::Side  ? Camera::side()
+         : s.view == View::Top ? Camera::top()
+                               : Camera::oblique(s.azimuth, s.elevation);
+}
+
 Camera camera_for(const PictureSettings& s, const Box& shown, int height) {
-  Camera camera = s.view == View::Side ? Camera::side() : s.view == View::Top ? Camera::top() : Camera::oblique(s.azimuth, s.elevation);
-  if (s.view == View::Oblique && s.perspective) camera.eye_distance = 3.2 * (shown.upper - shown.lower).norm();
+  Camera camera = direction_of(s);
+  if (s.view == View::Oblique && s.perspective)
+    camera.eye_distance = 3.2 * (shown.upper - shown.lower).norm();
   camera.frame(shown, s.width, height);
   return camera;
 }
@@ -24,7 +31,8 @@ std::vector<CuttingPlane> planes_of(const std::vector<AxisCut>& cuts, const Came
   std::vector<CuttingPlane> planes;
   for (const AxisCut& cut : cuts) {
     Vec3 out = Vec3::Zero();
-    // Out of the kept part: towards the viewer unless the cut says so; a plane seen edge-on keeps what is below.
+    // Out of the kept part: towards the viewer unless the cut says so; a plane seen edge-on keeps what is
+    // below.
     double sign = cut.keep == AxisCut::Keep::Above ? -1 : 1;
     if (cut.keep == AxisCut::Keep::AwayFromViewer && camera.forward[cut.axis] > 1e-9) sign = -1;
     out[cut.axis] = sign;
@@ -34,7 +42,8 @@ std::vector<CuttingPlane> planes_of(const std::vector<AxisCut>& cuts, const Came
 }
 
 // Wrapped spheres: each centre inside the cell, and for sawn blocks also every image that reaches into it.
-std::vector<Sphere> spheres_of(const Layer& layer, const ParticleColours& colours, const PictureSettings& s, int repeat_x, int repeat_y) {
+std::vector<Sphere> spheres_of(const Layer& layer, const ParticleColours& colours, const PictureSettings& s,
+                               int repeat_x, int repeat_y) {
   std::vector<Sphere> spheres;
   const Cell& cell = layer.cell;
   for (std::size_t i = 0; i < layer.position.size(); ++i) {
@@ -44,7 +53,9 @@ std::vector<Sphere> spheres_of(const Layer& layer, const ParticleColours& colour
     for (int ix = -extra; ix < repeat_x + extra; ++ix)
       for (int iy = -extra; iy < repeat_y + extra; ++iy) {
         const Vec3 q = p + Vec3(ix * cell.width_x, iy * cell.width_y, 0);
-        if (q.x() + a < 0 || q.y() + a < 0 || q.x() - a > repeat_x * cell.width_x || q.y() - a > repeat_y * cell.width_y) continue;
+        if (q.x() + a < 0 || q.y() + a < 0 || q.x() - a > repeat_x * cell.width_x ||
+            q.y() - a > repeat_y * cell.width_y)
+          continue;
         spheres.push_back({q, a, colours.of(i)});
       }
   }
@@ -60,20 +71,22 @@ void draw_scale_bar(Image& image, const Camera& camera, double left, double bott
   draw_text(image, left, y - 0.9 * text_height, text, text_height, ink);
 }
 
-void draw_colour_bar(Image& image, const ParticleColours& colours, double left, double right, double bottom, double text_height) {
+void draw_colour_bar(Image& image, const ParticleColours& colours, double left, double right, double bottom,
+                     double text_height) {
   if (!colours.categories.empty()) {
     double x = right;
     for (std::size_t i = colours.categories.size(); i-- > 0;) {
       const double width = text_width(colours.categories[i], text_height);
       draw_text(image, x - width, bottom, colours.categories[i], text_height, ink);
-      draw_line(image, x - width - 1.3 * text_height, bottom - 0.5 * text_height, x - width - 1.3 * text_height, bottom - 0.5 * text_height,
-                1.1 * text_height, categorical(i));
+      draw_line(image, x - width - 1.3 * text_height, bottom - 0.5 * text_height,
+                x - width - 1.3 * text_height, bottom - 0.5 * text_height, 1.1 * text_height, categorical(i));
       x -= width + 3.2 * text_height;
     }
     return;
   }
   const int x0 = static_cast<int>(left), x1 = static_cast<int>(right);
-  const int y1 = static_cast<int>(bottom - 1.75 * text_height), y0 = static_cast<int>(y1 - 0.85 * text_height);
+  const int y1 = static_cast<int>(bottom - 1.75 * text_height),
+            y0 = static_cast<int>(y1 - 0.85 * text_height);
   for (int x = x0; x < x1; ++x)
     for (int y = y0; y < y1; ++y) image.blend(x, y, sequential((x + 0.5 - x0) / (x1 - x0)), 1);
   const std::string title = colours.unit.empty() ? colours.label : colours.label + " (" + colours.unit + ")";
@@ -93,8 +106,10 @@ void draw_colour_bar(Image& image, const ParticleColours& colours, double left, 
 
 // The free surface where the camera looks along it: a thin line, spheres through it stay in front.
 void draw_surface_line(Image& image, const Camera& camera, const Box& liquid, int height) {
-  const auto [x0, y0] = camera.project({liquid.lower.x(), liquid.lower.y(), liquid.upper.z()}, image.width, height);
-  const auto [x1, y1] = camera.project({liquid.upper.x(), liquid.lower.y(), liquid.upper.z()}, image.width, height);
+  const auto [x0, y0] =
+      camera.project({liquid.lower.x(), liquid.lower.y(), liquid.upper.z()}, image.width, height);
+  const auto [x1, y1] =
+      camera.project({liquid.upper.x(), liquid.lower.y(), liquid.upper.z()}, image.width, height);
   draw_line(image, x0, y0, x1, y1, 1.4, from_srgb(70, 130, 190), 0.75);
 }
 
@@ -135,7 +150,8 @@ ParticleColours colours_by_species(const Particles& particles, const std::vector
   for (const int s : particles.species) c.value.push_back(s);
   c.value.resize(particles.size(), 0);
   const double most = c.value.empty() ? 0 : *std::max_element(c.value.begin(), c.value.end());
-  for (std::size_t i = c.categories.size(); i <= static_cast<std::size_t>(most); ++i) c.categories.push_back(fmt::format("species {}", i + 1));
+  for (std::size_t i = c.categories.size(); i <= static_cast<std::size_t>(most); ++i)
+    c.categories.push_back(fmt::format("species {}", i + 1));
   return c;
 }
 
@@ -151,7 +167,9 @@ ParticleColours colours_by_speed(const std::string& label, const std::vector<dou
   if (c.value.empty()) return c;
   std::vector<double> sorted = c.value;
   std::sort(sorted.begin(), sorted.end());
-  const auto percentile = [&](double p) { return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1))]; };
+  const auto percentile = [&](double p) {
+    return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1))];
+  };
   c.low = percentile(0.02), c.high = percentile(0.98);
   return c;
 }
@@ -164,13 +182,16 @@ ParticleColours colours_by_cluster(const std::vector<double>& size) {
 
 Image draw_layer(const Layer& layer, const ParticleColours& colours, const PictureSettings& s) {
   const Cell& cell = layer.cell;
-  const int repeat_x = std::max(1, s.repeat), repeat_y = s.view == View::Side ? 1 : repeat_x;
+  // From the side a second copy stands behind the first, so that gaps show particles and not the backdrop.
+  const int repeat_x = std::max(1, s.repeat), repeat_y = s.view != View::Side ? repeat_x : s.sawn ? 1 : 2;
   const double wide = repeat_x * cell.width_x, deep = repeat_y * cell.width_y;
   double top = cell.height;
-  for (std::size_t i = 0; i < layer.position.size(); ++i) top = std::max(top, layer.position[i].z() + layer.particles.radius[i]);
+  for (std::size_t i = 0; i < layer.position.size(); ++i)
+    top = std::max(top, layer.position[i].z() + layer.particles.radius[i]);
   const double shown_top = s.framed_height.value_or(top);
   const double slab = std::max(0.035 * shown_top, 0.01 * wide);
-  const double text_height = s.text_scale * std::clamp(0.017 * std::min(1.4 * s.width, 1.0 * s.height + 200), 9.0, 26.0);
+  const double text_height =
+      s.text_scale * std::clamp(0.017 * std::min(1.4 * s.width, 1.0 * s.height + 200), 9.0, 26.0);
   const bool footer = s.scale_bar || s.colour_bar;
   const int footer_height = footer ? static_cast<int>(5.4 * text_height) : 0;
   const int header_height = s.caption.empty() ? 0 : static_cast<int>(2.6 * text_height);
@@ -189,8 +210,13 @@ Image draw_layer(const Layer& layer, const ParticleColours& colours, const Pictu
   Box shown = around;
   shown.lower.z() = s.substrate ? -slab : 0.0;
   shown.upper.z() = shown_top;
+  scene.cuts = planes_of(s.cuts, direction_of(s));
+  for (const CuttingPlane& cut : scene.cuts)  // what is cut away needs no room
+    for (int k = 0; k < 3; ++k) {
+      if (cut.normal[k] > 0) shown.upper[k] = std::clamp(cut.offset, shown.lower[k], shown.upper[k]);
+      if (cut.normal[k] < 0) shown.lower[k] = std::clamp(-cut.offset, shown.lower[k], shown.upper[k]);
+    }
   const Camera camera = camera_for(s, shown, body_height);
-  scene.cuts = planes_of(s.cuts, camera);
   if (s.sawn) {
     scene.cuts.push_back({-Vec3::UnitX(), 0});
     scene.cuts.push_back({Vec3::UnitX(), wide});
@@ -234,7 +260,8 @@ Image contact_sheet(const std::vector<Image>& pictures, int columns) {
   const int rows = (count + columns - 1) / columns;
   Image sheet(columns * width + (columns + 1) * gap, rows * height + (rows + 1) * gap);
   for (int i = 0; i < count; ++i)
-    sheet.paste(pictures[static_cast<std::size_t>(i)], gap + i % columns * (width + gap), gap + i / columns * (height + gap));
+    sheet.paste(pictures[static_cast<std::size_t>(i)], gap + i % columns * (width + gap),
+                gap + i / columns * (height + gap));
   return sheet;
 }
 

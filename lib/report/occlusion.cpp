@@ -8,11 +8,12 @@ namespace pigment::report {
 namespace {
 
 constexpr double reach = 3.6;  // in radii of the occluder: beyond it a sphere fills under 8 % of the view
-// Tangent of the key light's half-angle as seen from a surface: how fast a shadow's edge softens with distance.
+// Tangent of the key light's half-angle as seen from a surface: how fast a shadow's edge softens with
+// distance.
 constexpr double light_softness = 0.30;
 
-// Part of the cosine-weighted hemisphere that a sphere hides: s^2 cos(theta) when it is wholly above the horizon
-// (s = radius/distance, theta its direction from the normal), meeting zero smoothly where it sets.
+// Part of the cosine-weighted hemisphere that a sphere hides: s^2 cos(theta) when it is wholly above the
+// horizon (s = radius/distance, theta its direction from the normal), meeting zero smoothly where it sets.
 double hidden_sky(double s, double cosine) {
   if (cosine <= -s) return 0;
   return s * s * (cosine >= s ? cosine : (cosine + s) * (cosine + s) / (4 * s));
@@ -25,8 +26,10 @@ void OccluderGrid::for_each_cell_near(const Sphere& s, Visit visit) const {
   const double range = reach * s.radius;
   int low[3], high[3];
   for (int k = 0; k < 3; ++k) {
-    low[k] = std::clamp(static_cast<int>(std::floor((s.centre[k] - range - lower_[k]) / cell_)), 0, count_[k] - 1);
-    high[k] = std::clamp(static_cast<int>(std::floor((s.centre[k] + range - lower_[k]) / cell_)), 0, count_[k] - 1);
+    low[k] =
+        std::clamp(static_cast<int>(std::floor((s.centre[k] - range - lower_[k]) / cell_)), 0, count_[k] - 1);
+    high[k] =
+        std::clamp(static_cast<int>(std::floor((s.centre[k] + range - lower_[k]) / cell_)), 0, count_[k] - 1);
   }
   for (int z = low[2]; z <= high[2]; ++z)
     for (int y = low[1]; y <= high[1]; ++y)
@@ -40,20 +43,24 @@ void OccluderGrid::for_each_cell_near(const Sphere& s, Visit visit) const {
           distance2 += d * d;
         }
         if (distance2 < range * range)
-          visit((static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
-                    static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(x));
+          visit((static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) +
+                 static_cast<std::size_t>(y)) *
+                    static_cast<std::size_t>(count_[0]) +
+                static_cast<std::size_t>(x));
       }
 }
 
-OccluderGrid::OccluderGrid(const std::vector<Sphere>& spheres, const std::vector<CuttingPlane>& cuts) : spheres_(spheres) {
+OccluderGrid::OccluderGrid(const std::vector<Sphere>& spheres, const std::vector<CuttingPlane>& cuts)
+    : spheres_(spheres) {
   std::vector<int> kept;
   Vec3 upper = Vec3::Constant(-1e300);
   lower_ = Vec3::Constant(1e300);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Sphere& s = spheres[i];
     // A sphere mostly cut away casts no shadow worth its place.
-    const bool gone = std::any_of(cuts.begin(), cuts.end(),
-                                  [&](const CuttingPlane& c) { return c.normal.dot(s.centre) > c.offset + 0.2 * s.radius; });
+    const bool gone = std::any_of(cuts.begin(), cuts.end(), [&](const CuttingPlane& c) {
+      return c.normal.dot(s.centre) > c.offset + 0.2 * s.radius;
+    });
     if (gone) continue;
     kept.push_back(static_cast<int>(i));
     lower_ = lower_.cwiseMin(s.centre - Vec3::Constant(s.radius));
@@ -69,14 +76,17 @@ OccluderGrid::OccluderGrid(const std::vector<Sphere>& spheres, const std::vector
     cells *= static_cast<std::size_t>(count_[k]);
   }
   begin_.assign(cells + 1, 0);
-  for (const int i : kept) for_each_cell_near(spheres[static_cast<std::size_t>(i)], [&](std::size_t c) { ++begin_[c + 1]; });
+  for (const int i : kept)
+    for_each_cell_near(spheres[static_cast<std::size_t>(i)], [&](std::size_t c) { ++begin_[c + 1]; });
   for (std::size_t c = 0; c < cells; ++c) begin_[c + 1] += begin_[c];
   list_.resize(begin_[cells]);
   std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-  for (const int i : kept) for_each_cell_near(spheres[static_cast<std::size_t>(i)], [&](std::size_t c) { list_[next[c]++] = i; });
+  for (const int i : kept)
+    for_each_cell_near(spheres[static_cast<std::size_t>(i)], [&](std::size_t c) { list_[next[c]++] = i; });
 }
 
-Illumination OccluderGrid::light_at(const Vec3& point, const Vec3& normal, const Vec3& to_key, int own) const {
+Illumination OccluderGrid::light_at(const Vec3& point, const Vec3& normal, const Vec3& to_key,
+                                    int own) const {
   Illumination light;
   if (list_.empty()) return light;
   std::size_t cell = 0;
@@ -92,7 +102,8 @@ Illumination OccluderGrid::light_at(const Vec3& point, const Vec3& normal, const
     const double distance2 = to_centre.squaredNorm(), range = reach * s.radius;
     if (distance2 >= range * range) continue;
     const double distance = std::sqrt(distance2), ratio = distance / range;
-    const double fade = (1 - ratio * ratio) * (1 - ratio * ratio) * (1 + 2 * ratio * ratio);  // smooth to zero at the reach
+    const double fade =
+        (1 - ratio * ratio) * (1 - ratio * ratio) * (1 + 2 * ratio * ratio);  // smooth to zero at the reach
     const double sine = std::min(s.radius / distance, 1.0);
     light.sky *= 1 - std::min(0.97, fade * hidden_sky(sine, normal.dot(to_centre) / distance));
     const double along = to_centre.dot(to_key);

@@ -11,8 +11,8 @@ struct Illumination {
   double key = 1;  // fraction of the key light that arrives
 };
 
-// A grid in which each cell lists the spheres that matter there: those closer than a few of their own radii. With
-// similar shadows at every size the list's length does not depend on the size distribution.
+// A grid in which each cell lists the spheres that matter there: those closer than a few of their own radii.
+// With similar shadows at every size the list's length does not depend on the size distribution.
 class OccluderGrid {
  public:
   OccluderGrid(const std::vector<Sphere>&, const std::vector<CuttingPlane>&);

@@ -24,8 +24,10 @@ std::optional<Number> number_in(const std::string& text) {
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts{""};
   for (const char c : text)
-    if (c == separator) parts.emplace_back();
-    else parts.back() += c;
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   return parts;
 }
 
@@ -37,8 +39,11 @@ std::string trimmed(const std::string& text) {
 std::size_t frame_number(const std::string& option, const std::string& text, std::size_t count) {
   if (text == "last") return count - 1;
   const auto number = number_in<std::size_t>(text);
-  if (!number) throw InputError(fmt::format("{}: \"{}\" is not the number of a frame; write e.g. 0, 12 or last", option, text));
-  if (*number >= count) throw InputError(fmt::format("{}: {} is beyond the last frame, {}", option, text, count - 1));
+  if (!number)
+    throw InputError(
+        fmt::format("{}: \"{}\" is not the number of a frame; write e.g. 0, 12 or last", option, text));
+  if (*number >= count)
+    throw InputError(fmt::format("{}: {} is beyond the last frame, {}", option, text, count - 1));
   return *number;
 }
 
@@ -51,12 +56,14 @@ double quantity_option(const std::string& option, const std::string& text, Dimen
 }
 
 int whole_option(const std::string& option, int value, int least, int most) {
-  if (value < least || value > most) throw InputError(fmt::format("{}: {} is not from {} to {}", option, value, least, most));
+  if (value < least || value > most)
+    throw InputError(fmt::format("{}: {} is not from {} to {}", option, value, least, most));
   return value;
 }
 
 double range_option(const std::string& option, double value, double least, double most) {
-  if (!(value >= least && value <= most)) throw InputError(fmt::format("{}: {} is not from {} to {}", option, value, least, most));
+  if (!(value >= least && value <= most))
+    throw InputError(fmt::format("{}: {} is not from {} to {}", option, value, least, most));
   return value;
 }
 
@@ -69,8 +76,10 @@ View view_option(const std::string& text) {
 
 std::pair<int, int> size_option(const std::string& text) {
   const auto parts = split(text, 'x');
-  const auto width = number_in<int>(parts[0]), height = parts.size() == 2 ? number_in<int>(parts[1]) : std::nullopt;
-  if (!width || !height) throw InputError(fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels; write e.g. 1600x1200", text));
+  const auto width = number_in<int>(parts[0]),
+             height = parts.size() == 2 ? number_in<int>(parts[1]) : std::nullopt;
+  if (!width || !height)
+    throw InputError(fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels; write e.g. 1600x1200", text));
   return {whole_option("--size", *width, 64, 16384), whole_option("--size", *height, 64, 16384)};
 }
 
@@ -84,32 +93,43 @@ std::vector<AxisCut> cuts_option(const std::string& text) {
     if (sign == std::string::npos || (axis != "x" && axis != "y" && axis != "z"))
       throw InputError(fmt::format("--cut: \"{}\" is not a plane; write e.g. y=2.5um, x<1um or z>10um", cut));
     const double position = quantity_option("--cut", trimmed(cut.substr(sign + 1)), Dimension::Length);
-    const auto keep = cut[sign] == '=' ? AxisCut::Keep::AwayFromViewer : cut[sign] == '<' ? AxisCut::Keep::Below : AxisCut::Keep::Above;
+    const auto keep = cut[sign] == '='   ? AxisCut::Keep::AwayFromViewer
+                      : cut[sign] == '<' ? AxisCut::Keep::Below
+                                         : AxisCut::Keep::Above;
     cuts.push_back({axis[0] - 'x', position, keep});
   }
   return cuts;
 }
 
-std::vector<std::size_t> frames_option(const std::vector<double>& times, const std::string& frame, const std::string& time,
-                                       const std::string& frames, int contact_sheet) {
+std::vector<std::size_t> frames_option(const std::vector<double>& times, const std::string& frame,
+                                       const std::string& time, const std::string& frames,
+                                       int contact_sheet) {
   const std::size_t count = times.size();
   if (int(!time.empty()) + int(!frames.empty()) + int(contact_sheet != 0) > 1)
     throw InputError("--time, --frames and --contact-sheet exclude one another");
   std::vector<std::size_t> chosen;
   if (contact_sheet != 0) {
-    return evenly_in_time(times, static_cast<std::size_t>(whole_option("--contact-sheet", contact_sheet, 1, 400)));
+    return evenly_in_time(times,
+                          static_cast<std::size_t>(whole_option("--contact-sheet", contact_sheet, 1, 400)));
   } else if (!time.empty()) {
     const double at = quantity_option("--time", time, Dimension::Time);
-    const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
+    const auto nearest = std::min_element(
+        times.begin(), times.end(), [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
     chosen.push_back(static_cast<std::size_t>(nearest - times.begin()));
   } else if (!frames.empty()) {
     auto parts = frames == "all" ? std::vector<std::string>{"0", "last"} : split(frames, ':');
-    if (parts.size() < 2 || parts.size() > 3) throw InputError(fmt::format("--frames: \"{}\" is neither all nor FIRST:LAST nor FIRST:LAST:STEP", frames));
-    const std::size_t first = frame_number("--frames", parts[0], count), last = frame_number("--frames", parts[1], count);
+    if (parts.size() < 2 || parts.size() > 3)
+      throw InputError(
+          fmt::format("--frames: \"{}\" is neither all nor FIRST:LAST nor FIRST:LAST:STEP", frames));
+    const std::size_t first = frame_number("--frames", parts[0], count),
+                      last = frame_number("--frames", parts[1], count);
     const auto step = parts.size() == 3 ? number_in<std::size_t>(parts[2]) : std::optional<std::size_t>(1);
-    if (!step || *step == 0) throw InputError(fmt::format("--frames: the step \"{}\" is not a whole number above 0", parts[2]));
+    if (!step || *step == 0)
+      throw InputError(fmt::format("--frames: the step \"{}\" is not a whole number above 0", parts[2]));
     for (std::size_t k = first; k <= last; k += *step) chosen.push_back(k);
-    if (chosen.empty()) throw InputError(fmt::format("--frames: \"{}\" holds no frame: the first lies behind the last", frames));
+    if (chosen.empty())
+      throw InputError(
+          fmt::format("--frames: \"{}\" holds no frame: the first lies behind the last", frames));
   } else {
     chosen.push_back(frame_number("--frame", frame, count));
   }
@@ -121,7 +141,8 @@ double framed_height(const io::ParticleFile& file, const std::vector<std::size_t
   for (const std::size_t k : frames) {
     const io::Frame frame = file.frame(k);
     highest = std::max(highest, frame.cell.height);
-    for (std::size_t i = 0; i < frame.position.size(); ++i) highest = std::max(highest, frame.position[i].z() + file.particles().radius[i]);
+    for (std::size_t i = 0; i < frame.position.size(); ++i)
+      highest = std::max(highest, frame.position[i].z() + file.particles().radius[i]);
   }
   return highest;
 }

@@ -69,7 +69,8 @@ void Image::blend(int x, int y, Colour colour, double weight) {
   std::uint8_t* pixel = at(x, y);
   weight = std::min(weight, 1.0);
   for (int k = 0; k < 3; ++k)
-    pixel[k] = static_cast<std::uint8_t>(std::lround((1 - weight) * pixel[k] + weight * bytes[static_cast<std::size_t>(k)]));
+    pixel[k] = static_cast<std::uint8_t>(
+        std::lround((1 - weight) * pixel[k] + weight * bytes[static_cast<std::size_t>(k)]));
 }
 
 void Image::paste(const Image& other, int left, int top) {
@@ -87,7 +88,9 @@ std::string encode_png(const Image& image) {
   return out;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) { write_whole_file(path, encode_png(image)); }
+void write_png(const std::filesystem::path& path, const Image& image) {
+  write_whole_file(path, encode_png(image));
+}
 
 std::string png_data_uri(const Image& image) { return "data:image/png;base64," + base64(encode_png(image)); }
 

@@ -15,9 +15,13 @@ struct Image {
 
   Image() = default;
   Image(int width, int height, Colour fill = {1, 1, 1});
-  std::uint8_t* at(int x, int y) { return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))]; }
+  std::uint8_t* at(int x, int y) {
+    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x))];
+  }
   const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
-  // Mixes a colour into one pixel (in sRGB values, as thin lines and letters want it); outside the picture: nothing.
+  // Mixes a colour into one pixel (in sRGB values, as thin lines and letters want it); outside the picture:
+  // nothing.
   void blend(int x, int y, Colour, double weight);
   // Copies another picture to (left, top); what does not fit is cut off.
   void paste(const Image&, int left, int top);

@@ -21,7 +21,8 @@ struct Ray {
 
 Ray ray_through(const Camera& c, const RenderSettings& s, double x, double y) {
   const double scale = c.width / s.width;
-  const Vec3 on_plane = c.target + (x - 0.5 * s.width) * scale * c.right + (0.5 * s.height - y) * scale * c.up;
+  const Vec3 on_plane =
+      c.target + (x - 0.5 * s.width) * scale * c.right + (0.5 * s.height - y) * scale * c.up;
   if (c.eye_distance <= 0) return {on_plane, c.forward};
   const Vec3 eye = c.target - c.eye_distance * c.forward;
   return {eye, (on_plane - eye).normalized()};
@@ -37,7 +38,8 @@ Interval kept_part(const Ray& ray, const std::vector<CuttingPlane>& cuts, bool p
   Interval kept;
   if (perspective) kept.begin = 0;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const double speed = cuts[i].normal.dot(ray.direction), distance = cuts[i].offset - cuts[i].normal.dot(ray.origin);
+    const double speed = cuts[i].normal.dot(ray.direction),
+                 distance = cuts[i].offset - cuts[i].normal.dot(ray.origin);
     if (std::abs(speed) < 1e-12) {
       if (distance < 0) kept.end = -infinity;
     } else if (speed < 0) {
@@ -56,7 +58,8 @@ Interval through_box(const Ray& ray, const Box& box) {
       if (ray.origin[k] < box.lower[k] || ray.origin[k] > box.upper[k]) return {0, -1, -1};
       continue;
     }
-    double a = (box.lower[k] - ray.origin[k]) / ray.direction[k], b = (box.upper[k] - ray.origin[k]) / ray.direction[k];
+    double a = (box.lower[k] - ray.origin[k]) / ray.direction[k],
+           b = (box.upper[k] - ray.origin[k]) / ray.direction[k];
     if (a > b) std::swap(a, b);
     if (a > inside.begin) inside = {a, inside.end, k};
     inside.end = std::min(inside.end, b);
@@ -108,7 +111,8 @@ class Renderer {
       : scene_(scene), camera_(camera), settings_(settings), occluders_(scene.spheres, scene.cuts) {
     // The key light stands over the viewer's left shoulder; the sky is straight up.
     to_key_ = (-0.55 * camera.right + 0.75 * camera.up - 0.75 * camera.forward).normalized();
-    if (camera.forward.z() < -0.9) to_key_ = (-0.5 * camera.right + 0.5 * camera.up - camera.forward).normalized();
+    if (camera.forward.z() < -0.9)
+      to_key_ = (-0.5 * camera.right + 0.5 * camera.up - camera.forward).normalized();
     sort_into_tiles();
   }
 
@@ -185,7 +189,8 @@ class Renderer {
   void draw_tile(int tile, Image& image) const {
     const int n = settings_.samples;
     const int x0 = tile % tiles_x_ * tile_size, y0 = tile / tiles_x_ * tile_size;
-    const int columns = std::min(tile_size, settings_.width - x0) * n, rows = std::min(tile_size, settings_.height - y0) * n;
+    const int columns = std::min(tile_size, settings_.width - x0) * n,
+              rows = std::min(tile_size, settings_.height - y0) * n;
     const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     std::vector<Ray> rays(count);
     std::vector<Interval> kept(count);
@@ -197,8 +202,10 @@ class Renderer {
         kept[i] = kept_part(rays[i], scene_.cuts, camera_.eye_distance > 0);
         for (const Box& box : scene_.substrate) {
           Interval inside = through_box(rays[i], box);
-          if (kept[i].begin > inside.begin && kept[i].begin > -infinity) inside = {kept[i].begin, inside.end, 3 + kept[i].begin_face};
-          if (inside.begin < std::min(inside.end, kept[i].end)) hits[i] = {inside.begin, substrate_object(), inside.begin_face};
+          if (kept[i].begin > inside.begin && kept[i].begin > -infinity)
+            inside = {kept[i].begin, inside.end, 3 + kept[i].begin_face};
+          if (inside.begin < std::min(inside.end, kept[i].end))
+            hits[i] = {inside.begin, substrate_object(), inside.begin_face};
         }
       }
     for (const int object : tile_objects_[static_cast<std::size_t>(tile)]) {
@@ -210,9 +217,11 @@ class Renderer {
       for (int row = first_row; row <= last_row; ++row)
         for (int column = first_column; column <= last_column; ++column) {
           const auto i = static_cast<std::size_t>(row * columns + column);
-          const Interval inside = object < sphere_count()
-                                      ? through_sphere(rays[i], scene_.spheres[static_cast<std::size_t>(object)])
-                                      : through_rod(rays[i], scene_.connections[static_cast<std::size_t>(object - sphere_count())]);
+          const Interval inside =
+              object < sphere_count()
+                  ? through_sphere(rays[i], scene_.spheres[static_cast<std::size_t>(object)])
+                  : through_rod(rays[i],
+                                scene_.connections[static_cast<std::size_t>(object - sphere_count())]);
           if (inside.begin > inside.end) continue;
           const bool on_cut = kept[i].begin > inside.begin;
           const double distance = on_cut ? kept[i].begin : inside.begin;
@@ -227,11 +236,14 @@ class Renderer {
       }
   }
 
-  // Mean colour of the surfaces in a pixel, each shaded once, at its sample nearest to the middle of its samples.
+  // Mean colour of the surfaces in a pixel, each shaded once, at its sample nearest to the middle of its
+  // samples.
   Colour pixel(int px, int py, int column0, int row0, int columns, const std::vector<Ray>& rays,
                const std::vector<Interval>& kept, const std::vector<Hit>& hits) const {
     const int n = settings_.samples;
-    const auto at = [&](int k) { return static_cast<std::size_t>((row0 + k / n) * columns + column0 + k % n); };
+    const auto at = [&](int k) {
+      return static_cast<std::size_t>((row0 + k / n) * columns + column0 + k % n);
+    };
     Colour sum;
     std::vector<char> done(static_cast<std::size_t>(n * n), 0);
     for (int k = 0; k < n * n; ++k) {
@@ -251,7 +263,8 @@ class Renderer {
           const double d = (m % n - mean_x) * (m % n - mean_x) + (m / n - mean_y) * (m / n - mean_y);
           if (d < best_distance) best = m, best_distance = d;
         }
-      sum = sum + static_cast<double>(members) / (n * n) * shade(px, py, rays[at(best)], kept[at(best)], hits[at(best)]);
+      sum = sum + static_cast<double>(members) / (n * n) *
+                      shade(px, py, rays[at(best)], kept[at(best)], hits[at(best)]);
     }
     return sum;
   }
@@ -260,7 +273,8 @@ class Renderer {
     const double down = (py + 0.5) / settings_.height;
     const Colour background = mix(settings_.background_top, settings_.background_bottom, down * down);
     Colour colour = background;
-    if (hit.object >= 0) colour = hit.object == substrate_object() ? shade_substrate(ray, hit) : shade_particle(ray, hit);
+    if (hit.object >= 0)
+      colour = hit.object == substrate_object() ? shade_substrate(ray, hit) : shade_particle(ray, hit);
     if (settings_.shading) colour = through_liquid(ray, kept, hit, colour);
     return colour;
   }
@@ -268,7 +282,8 @@ class Renderer {
   Colour lit(const Vec3& normal, Colour base, const Illumination& light) const {
     const double key = std::max(0.0, normal.dot(to_key_));
     // Sky from above, a little from everywhere, and a weak light from the viewer, so that nothing drowns.
-    const double sky = light.sky * (0.62 + 0.24 * normal.z() + 0.14 * std::max(0.0, -normal.dot(camera_.forward)));
+    const double sky =
+        light.sky * (0.62 + 0.24 * normal.z() + 0.14 * std::max(0.0, -normal.dot(camera_.forward)));
     const Colour warm{1.00, 0.975, 0.93}, cool{0.91, 0.955, 1.0};
     // Between touching spheres light is scattered back and forth in their own colour: shadows keep some hue.
     const Colour bounced = 0.10 * (1 - light.sky) * (base * base);
@@ -280,7 +295,8 @@ class Renderer {
     if (hit.object >= sphere_count()) {
       const Connection& rod = scene_.connections[static_cast<std::size_t>(hit.object - sphere_count())];
       if (!settings_.shading) return rod.colour;
-      const Vec3 u = (rod.to - rod.from).normalized(), radial = point - rod.from - (point - rod.from).dot(u) * u;
+      const Vec3 u = (rod.to - rod.from).normalized(),
+                 radial = point - rod.from - (point - rod.from).dot(u) * u;
       return lit(radial.normalized(), rod.colour, Illumination{});
     }
     const Sphere& s = scene_.spheres[static_cast<std::size_t>(hit.object)];
@@ -299,15 +315,16 @@ class Renderer {
 
   // A cut face: flat, paler than the surface, with a darker rim a pixel or two wide.
   Colour shade_cut(const Sphere& s, const CuttingPlane& cut, const Vec3& point) const {
-    const Colour face = mix(s.colour, {1, 1, 1}, 0.22);
+    const Colour face = mix(s.colour, {1, 1, 1}, 0.10);
     if (!settings_.shading) return face;
     const double height = cut.normal.dot(s.centre) - cut.offset;
     const Vec3 middle = s.centre - height * cut.normal;
     const double face_radius = std::sqrt(std::max(0.0, s.radius * s.radius - height * height));
     const double pixel_size = camera_.width / settings_.width;
     const double from_rim = (face_radius - (point - middle).norm()) / pixel_size;
-    const double light = 0.86 + 0.10 * std::max(0.0, cut.normal.dot(to_key_));
-    const double rim = std::clamp(1 - from_rim / 2.2, 0.0, 1.0) * std::min(1.0, face_radius / (6 * pixel_size));
+    const double light = 0.96 + 0.10 * std::max(0.0, cut.normal.dot(to_key_));
+    const double rim =
+        std::clamp(1 - from_rim / 2.2, 0.0, 1.0) * std::min(1.0, face_radius / (6 * pixel_size));
     return light * (1 - 0.55 * rim) * face;
   }
 
@@ -334,12 +351,14 @@ class Renderer {
     static const Colour water = from_srgb(208, 226, 240);
     for (const Box& box : scene_.liquid) {
       const Interval inside = through_box(ray, box);
-      const double begin = std::max(inside.begin, kept.begin), end = std::min({inside.end, kept.end, hit.distance});
+      const double begin = std::max(inside.begin, kept.begin),
+                   end = std::min({inside.end, kept.end, hit.distance});
       if (!(end > begin)) continue;
       const double depth = (box.upper - box.lower).head<2>().maxCoeff();
       colour = mix(colour, water, 0.55 * (1 - std::exp(-1.1 * (end - begin) / depth)));
       // The free surface seen from above catches a little sky.
-      if (inside.begin_face == 2 && inside.begin >= kept.begin && ray.direction.z() < 0) colour = mix(colour, {1, 1, 1}, 0.10);
+      if (inside.begin_face == 2 && inside.begin >= kept.begin && ray.direction.z() < 0)
+        colour = mix(colour, {1, 1, 1}, 0.10);
     }
     return colour;
   }
@@ -357,18 +376,25 @@ Camera Camera::oblique(double azimuth, double elevation) {
 }
 
 void Camera::frame(const Box& box, int width_pixels, int height_pixels, double margin) {
-  Vec3 low = Vec3::Constant(infinity), high = -low;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p(corner & 1 ? box.upper.x() : box.lower.x(), corner & 2 ? box.upper.y() : box.lower.y(),
-                 corner & 4 ? box.upper.z() : box.lower.z());
-    const Vec3 q(p.dot(right), p.dot(up), p.dot(forward));
-    low = low.cwiseMin(q), high = high.cwiseMax(q);
+  const auto corner = [&](int k) {
+    return Vec3(k & 1 ? box.upper.x() : box.lower.x(), k & 2 ? box.upper.y() : box.lower.y(),
+                k & 4 ? box.upper.z() : box.lower.z());
+  };
+  target = 0.5 * (box.lower + box.upper);
+  // With perspective a shift of the target changes what is seen a little: a few rounds settle it.
+  for (int round = 0; round < (eye_distance > 0 ? 8 : 1); ++round) {
+    Eigen::Vector2d low(infinity, infinity), high = -low;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 d = corner(k) - target;
+      const double nearer =
+          eye_distance > 0 ? eye_distance / std::max(0.05 * eye_distance, eye_distance + d.dot(forward)) : 1;
+      const Eigen::Vector2d p = nearer * Eigen::Vector2d(d.dot(right), d.dot(up));
+      low = low.cwiseMin(p), high = high.cwiseMax(p);
+    }
+    const Eigen::Vector2d middle = 0.5 * (low + high), size = high - low;
+    target += middle.x() * right + middle.y() * up;
+    width = std::max({size.x(), size.y() * width_pixels / height_pixels, 1e-6}) / (1 - 2 * margin);
   }
-  const Vec3 middle = 0.5 * (low + high), size = high - low;
-  target = middle.x() * right + middle.y() * up + middle.z() * forward;
-  width = std::max(size.x(), size.y() * width_pixels / height_pixels) / (1 - 2 * margin);
-  // With perspective the near side looks larger: scale so that it fits as well.
-  if (eye_distance > 0) width *= 1 / std::max(0.2, 1 - 0.5 * size.z() / eye_distance);
 }
 
 std::pair<double, double> Camera::project(const Vec3& point, int width_pixels, int height_pixels) const {

@@ -1,8 +1,9 @@
 #pragma once
-// Spheres -> picture, in software, without a display. Each pixel casts rays (a grid of samples), the nearest surface
-// wins, and what a pixel sees is shaded once a surface: a key light with soft shadows, sky light dimmed by the
-// neighbours (ambient occlusion from the spheres themselves), the liquid as a light tint along the line of sight.
-// Every pixel is a pure function of the scene, so the bytes do not depend on the number of threads.
+// Spheres -> picture, in software, without a display. Each pixel casts rays (a grid of samples), the nearest
+// surface wins, and what a pixel sees is shaded once a surface: a key light with soft shadows, sky light
+// dimmed by the neighbours (ambient occlusion from the spheres themselves), the liquid as a light tint along
+// the line of sight. Every pixel is a pure function of the scene, so the bytes do not depend on the number of
+// threads.
 #include <vector>
 
 #include "base/vec.h"
@@ -45,13 +46,14 @@ struct SphereScene {
 // Looks along `forward`; right, up and forward are orthonormal. The picture's centre shows `target`.
 struct Camera {
   Vec3 right, up, forward, target;
-  double width = 1;              // um across the picture in the plane through target
-  double eye_distance = 0;       // um from the eye to target; 0: parallel rays (orthographic)
+  double width = 1;         // um across the picture in the plane through target
+  double eye_distance = 0;  // um from the eye to target; 0: parallel rays (orthographic)
 
-  static Camera side();          // along +y, z up
-  static Camera top();           // along -z, y up
+  static Camera side();                                               // along +y, z up
+  static Camera top();                                                // along -z, y up
   static Camera oblique(double azimuth = 32, double elevation = 24);  // degrees
-  // Centres and scales so that both corners' box fits a picture of this shape, with a margin (fraction of the picture).
+  // Centres and scales so that both corners' box fits a picture of this shape, with a margin (fraction of the
+  // picture).
   void frame(const Box&, int width_pixels, int height_pixels, double margin = 0.03);
   // Pixel coordinates (from the left, from the top) of a point.
   std::pair<double, double> project(const Vec3&, int width_pixels, int height_pixels) const;

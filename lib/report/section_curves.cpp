@@ -23,15 +23,16 @@ void add_thinned(Plot& plot, Series series) {
     Series thin = series;
     thin.x.clear(), thin.y.clear();
     for (std::size_t i = 0; i < series.x.size(); ++i)
-      if (i % every == 0 || i + 1 == series.x.size()) thin.x.push_back(series.x[i]), thin.y.push_back(series.y[i]);
+      if (i % every == 0 || i + 1 == series.x.size())
+        thin.x.push_back(series.x[i]), thin.y.push_back(series.y[i]);
     series = thin;
   }
   plot.series.push_back(std::move(series));
 }
 
 // Adds an observable of the trajectory where it has one; factor: to the plot's unit.
-bool add_observable(Plot& plot, const RunView& view, const std::string& name, const std::string& label, double factor,
-                    SeriesStyle style = SeriesStyle::Line) {
+bool add_observable(Plot& plot, const RunView& view, const std::string& name, const std::string& label,
+                    double factor, SeriesStyle style = SeriesStyle::Line) {
   if (!view.files.trajectory) return false;
   const auto values = view.files.trajectory->observable(name);
   if (values.size() < 2) return false;
@@ -44,7 +45,8 @@ bool add_observable(Plot& plot, const RunView& view, const std::string& name, co
   return true;
 }
 
-Plot in_time(const RunView& view, const std::string& title, const std::string& label, const std::string& unit) {
+Plot in_time(const RunView& view, const std::string& title, const std::string& label,
+             const std::string& unit) {
   Plot plot;
   plot.title = title;
   plot.x = view.time_axis();
@@ -76,12 +78,16 @@ void add_dewatering(HtmlReport& page, const RunView& view) {
   own.longest_time = time.at(time.rows - 1);
   own.in_seconds = own.longest_time >= 100;
   const auto times = own.shown_times(time.all());
-  const auto column = [&](const char* name) { return rows_of(*file, std::string("/dewatering/") + name, time.rows, 1); };
+  const auto column = [&](const char* name) {
+    return rows_of(*file, std::string("/dewatering/") + name, time.rows, 1);
+  };
 
   Plot flux = in_time(own, "Liquid flux", "flux", "µm/s");
   flux.y.from_zero = true;
-  if (const Rows q = column("absorption_flux")) add_thinned(flux, {"absorption", times, scaled(q.all(), 1000), {}, SeriesStyle::Line, 0});
-  if (const Rows e = column("evaporation_flux")) add_thinned(flux, {"evaporation", times, scaled(e.all(), 1000), {}, SeriesStyle::Line, 1});
+  if (const Rows q = column("absorption_flux"))
+    add_thinned(flux, {"absorption", times, scaled(q.all(), 1000), {}, SeriesStyle::Line, 0});
+  if (const Rows e = column("evaporation_flux"))
+    add_thinned(flux, {"evaporation", times, scaled(e.all(), 1000), {}, SeriesStyle::Line, 1});
   // Darcy absorption is singular at t = 0: the axis ends where all but the first hundredth of the time fits.
   double later = 0;
   for (const Series& s : flux.series)
@@ -114,8 +120,10 @@ void add_dewatering(HtmlReport& page, const RunView& view) {
   }
   keep(plots, temperature);
   if (plots.empty()) return;
-  page.section("Dewatering", "What the run is told to remove: absorption into the substrate below, evaporation from the surface above. "
-                             "One micrometre is one litre of liquid a thousand square metres.");
+  page.section("Dewatering",
+               "What the run is told to remove: absorption into the substrate below, evaporation from the "
+               "surface above. "
+               "One micrometre is one litre of liquid a thousand square metres.");
   page.plots(plots);
 }
 
@@ -131,21 +139,27 @@ void add_development(HtmlReport& page, const RunView& view) {
   };
 
   Plot thickness = in_time(view, "Thickness", "height above the substrate", "µm");
-  if (!add_observable(thickness, view, "thickness", "free surface", 1)) from_solids(thickness, "thickness", "thickness", 1);
-  if (!add_observable(thickness, view, "z99", "99 % of the solids below", 1)) from_solids(thickness, "z99", "99 % of the solids below", 1);
-  if (!add_observable(thickness, view, "z95", "95 % of the solids below", 1)) from_solids(thickness, "z95", "95 % of the solids below", 1);
+  if (!add_observable(thickness, view, "thickness", "free surface", 1))
+    from_solids(thickness, "thickness", "thickness", 1);
+  if (!add_observable(thickness, view, "z99", "99 % of the solids below", 1))
+    from_solids(thickness, "z99", "99 % of the solids below", 1);
+  if (!add_observable(thickness, view, "z95", "95 % of the solids below", 1))
+    from_solids(thickness, "z95", "95 % of the solids below", 1);
   thickness.markers = markers;
   keep(plots, thickness);
 
   Plot mass = in_time(view, "Solids", "solids", "wt%");
-  if (!add_observable(mass, view, "solids_mass_fraction", "solids", 100)) from_solids(mass, "mean_mass_fraction", "solids", 100);
+  if (!add_observable(mass, view, "solids_mass_fraction", "solids", 100))
+    from_solids(mass, "mean_mass_fraction", "solids", 100);
   mass.markers = markers;
   keep(plots, mass);
 
   Plot centre = in_time(view, "Mass centre of the solids", "height of the mass centre", "µm");
-  if (!add_observable(centre, view, "mass_centre", "mass centre", 1)) from_solids(centre, "mass_centre", "mass centre", 1);
+  if (!add_observable(centre, view, "mass_centre", "mass centre", 1))
+    from_solids(centre, "mass_centre", "mass centre", 1);
   centre.markers = markers;
-  if (!markers.empty()) centre.note = "From the marked time on the particles move with the shrinking layer only.";
+  if (!markers.empty())
+    centre.note = "From the marked time on the particles move with the shrinking layer only.";
   keep(plots, centre);
 
   Plot pressure = in_time(view, "Pressure on surface and substrate", "force per area", "Pa");
@@ -160,7 +174,8 @@ void add_development(HtmlReport& page, const RunView& view) {
   keep(plots, pressure);
 
   Plot dense = in_time(view, "Filter cake and skin", "thickness", "µm");
-  if (solids) from_solids(dense, "cake_thickness", "cake", 1), from_solids(dense, "skin_thickness", "skin", 1);
+  if (solids)
+    from_solids(dense, "cake_thickness", "cake", 1), from_solids(dense, "skin_thickness", "skin", 1);
   dense.y.from_zero = true;
   dense.markers = markers;
   if (largest(dense) > 0) keep(plots, dense);
@@ -173,7 +188,8 @@ void add_development(HtmlReport& page, const RunView& view) {
       if (!v || when.rows < 2) return;
       Series s{label, view.shown_times(when.all()), scaled(v.all(), 1000), {}, style};
       for (double& y : s.y) y = y > 0 ? y : NAN;  // the axis is logarithmic
-      if (std::any_of(s.y.begin(), s.y.end(), [](double y) { return std::isfinite(y); })) add_thinned(motion, s);
+      if (std::any_of(s.y.begin(), s.y.end(), [](double y) { return std::isfinite(y); }))
+        add_thinned(motion, s);
     };
     if (when) {
       add("non_affine_velocity", "particles against the shrinking layer (rms)", SeriesStyle::Line);

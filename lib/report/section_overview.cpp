@@ -16,7 +16,8 @@ std::string outcome_text(const std::string& outcome) {
   return outcome;
 }
 
-std::vector<double> observable_or_result(const RunView& view, const std::string& observable, const std::string& solids_path) {
+std::vector<double> observable_or_result(const RunView& view, const std::string& observable,
+                                         const std::string& solids_path) {
   std::vector<double> values;
   if (view.files.trajectory) values = view.files.trajectory->observable(observable);
   if (values.empty())
@@ -31,7 +32,8 @@ double solid_volume(const Particles& particles) {
 }
 
 std::string from_to(double first, double last, int digits) {
-  return fmt::format("from {}", number_text(first, digits)) + (first == last ? "" : fmt::format(" to {}", number_text(last, digits)));
+  return fmt::format("from {}", number_text(first, digits)) +
+         (first == last ? "" : fmt::format(" to {}", number_text(last, digits)));
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ RunView::RunView(const RunFiles& f) : files(f) {
   if (const auto* solids = files.result("solids"))
     if (const auto found = solids->numbers.find("immobilisation_time"); found != solids->numbers.end())
       immobilisation_time = to_engine(Dimension::Time, found->second);
-  if (!immobilisation_time && files.trajectory && files.trajectory->outcome() == "immobile") immobilisation_time = longest_time;
+  if (!immobilisation_time && files.trajectory && files.trajectory->outcome() == "immobile")
+    immobilisation_time = longest_time;
 }
 
 std::vector<double> RunView::shown_times(std::vector<double> times) const {
@@ -54,7 +57,9 @@ std::vector<double> RunView::shown_times(std::vector<double> times) const {
   return times;
 }
 
-std::string RunView::when(double milliseconds) const { return number_text(shown_time(milliseconds), 4) + (in_seconds ? " s" : " ms"); }
+std::string RunView::when(double milliseconds) const {
+  return number_text(shown_time(milliseconds), 4) + (in_seconds ? " s" : " ms");
+}
 
 std::vector<MarkerLine> RunView::immobilisation_marker() const {
   if (!immobilisation_time) return {};
@@ -68,9 +73,13 @@ void add_overview(HtmlReport& page, const RunView& view) {
     numbers.push_back({"Outcome", outcome_text(trajectory->outcome()), "", ""});
     if (view.longest_time > 0) numbers.back().note = "after " + view.when(view.longest_time);
   }
-  if (view.immobilisation_time) numbers.push_back({"Immobile from", view.when(*view.immobilisation_time), "", "particles move with the layer only"});
-  if (const auto solids = observable_or_result(view, "solids_mass_fraction", "/solids/mean_mass_fraction"); !solids.empty()) {
-    numbers.push_back({solids.size() > 1 ? "Final solids" : "Solids", number_text(100 * solids.back(), 3), "wt%", ""});
+  if (view.immobilisation_time)
+    numbers.push_back(
+        {"Immobile from", view.when(*view.immobilisation_time), "", "particles move with the layer only"});
+  if (const auto solids = observable_or_result(view, "solids_mass_fraction", "/solids/mean_mass_fraction");
+      !solids.empty()) {
+    numbers.push_back(
+        {solids.size() > 1 ? "Final solids" : "Solids", number_text(100 * solids.back(), 3), "wt%", ""});
     if (solids.size() > 1) numbers.back().note = "from " + number_text(100 * solids.front(), 3) + " wt%";
   }
   if (const auto* file = view.files.particles()) {
@@ -80,34 +89,46 @@ void add_overview(HtmlReport& page, const RunView& view) {
     numbers.push_back({last == 0 ? "Thickness" : "Final thickness", number_text(cell.height, 4), "µm", ""});
     if (last > 0) numbers.back().note = from_to(first.cell.height, first.cell.height, 4) + " µm";
     const double volume = solid_volume(first.particles);
-    numbers.push_back({"Solids by volume", number_text(100 * volume / (cell.area() * cell.height), 3), "vol%", ""});
-    if (last > 0) numbers.back().note = "from " + number_text(100 * volume / (first.cell.area() * first.cell.height), 3) + " vol%";
+    numbers.push_back(
+        {"Solids by volume", number_text(100 * volume / (cell.area() * cell.height), 3), "vol%", ""});
+    if (last > 0)
+      numbers.back().note =
+          "from " + number_text(100 * volume / (first.cell.area() * first.cell.height), 3) + " vol%";
     numbers.push_back({"Particles", std::to_string(file->particle_count()), "", ""});
-    const auto [small, large] = std::minmax_element(first.particles.radius.begin(), first.particles.radius.end());
+    const auto [small, large] =
+        std::minmax_element(first.particles.radius.begin(), first.particles.radius.end());
     if (small != first.particles.radius.end())
-      numbers.back().note = "diameters " + number_text(2 * *small, 3) + (*small == *large ? "" : " to " + number_text(2 * *large, 3)) + " µm";
-    numbers.push_back({"Cell", number_text(cell.width_x, 3) + " × " + number_text(cell.width_y, 3), "µm", "periodic"});
+      numbers.back().note = "diameters " + number_text(2 * *small, 3) +
+                            (*small == *large ? "" : " to " + number_text(2 * *large, 3)) + " µm";
+    numbers.push_back(
+        {"Cell", number_text(cell.width_x, 3) + " × " + number_text(cell.width_y, 3), "µm", "periodic"});
   }
   if (const auto* dewatering = view.files.result("dewatering")) {
-    const Rows absorbed = rows_of(*dewatering, "/dewatering/absorbed"), evaporated = rows_of(*dewatering, "/dewatering/evaporated");
+    const Rows absorbed = rows_of(*dewatering, "/dewatering/absorbed"),
+               evaporated = rows_of(*dewatering, "/dewatering/evaporated");
     if (absorbed && evaporated)
-      numbers.push_back({"Liquid removed", number_text(absorbed.all().back() + evaporated.all().back(), 3), "µm",
-                         number_text(absorbed.all().back(), 3) + " absorbed, " + number_text(evaporated.all().back(), 3) + " evaporated"});
+      numbers.push_back({"Liquid removed", number_text(absorbed.all().back() + evaporated.all().back(), 3),
+                         "µm",
+                         number_text(absorbed.all().back(), 3) + " absorbed, " +
+                             number_text(evaporated.all().back(), 3) + " evaporated"});
   }
   if (trajectory)
     if (const auto pressure = trajectory->observable("surface_pressure"); !pressure.empty())
       numbers.push_back({"Surface pressure", number_text(pressure.back() / 1000, 3), "kPa", "at the end"});
   if (const auto* cluster = view.files.result("cluster"))
     if (const Rows clustered = rows_of(*cluster, "/cluster/clustered_fraction"))
-      numbers.push_back({"Clustered", number_text(100 * clustered.all().back(), 3), "%", "of the particles, at the end"});
+      numbers.push_back(
+          {"Clustered", number_text(100 * clustered.all().back(), 3), "%", "of the particles, at the end"});
   if (!numbers.empty()) page.headlines(numbers);
 }
 
-HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& title, const PictureWishes& wishes) {
+HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& title,
+                          const PictureWishes& wishes) {
   std::string subtitle;
   if (runs.size() == 1)
     if (const auto* file = runs.front().particles())
-      subtitle = fmt::format("{} particles{}", file->particle_count(), file->frame_count() > 1 ? fmt::format(", {} frames", file->frame_count()) : "");
+      subtitle = fmt::format("{} particles{}", file->particle_count(),
+                             file->frame_count() > 1 ? fmt::format(", {} frames", file->frame_count()) : "");
   if (runs.size() > 1) subtitle = fmt::format("{} runs", runs.size());
   HtmlReport page(title, subtitle);
   for (const RunFiles& files : runs) {
@@ -122,6 +143,7 @@ HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& 
     add_clusters(page, view);
     add_separations(page, view);
     add_mobility(page, view);
+    add_packing(page, view);
     add_brownian_calibration(page, view);
     add_numerics(page, view);
     add_provenance(page, view);

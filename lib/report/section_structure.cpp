@@ -1,4 +1,4 @@
-// What the analyses say: profiles over the thickness, clusters, separations, mobility; the calibration of Brownian motion.
+// What the analyses say: profiles over the thickness, clusters, separations, mobility.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ std::string shade_of(std::size_t k, std::size_t count) {
 
 // A plot with one curve a chosen time, and a slider over (at most 120 of) all times.
 template <typename Curve>
-void add_times(Plot& plot, const RunView& view, const std::vector<double>& time, std::size_t shown, const Curve& curve) {
+void add_times(Plot& plot, const RunView& view, const std::vector<double>& time, std::size_t shown,
+               const Curve& curve) {
   const auto chosen = evenly_in_time(time, shown);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     Series s = curve(chosen[k]);
@@ -58,13 +59,15 @@ struct Cube {
   const io::Dataset* dataset = nullptr;
   std::vector<double> line(std::size_t i, std::size_t j) const {
     const std::size_t n = dataset->shape[2], first = (i * dataset->shape[1] + j) * n;
-    return {dataset->values.begin() + static_cast<std::ptrdiff_t>(first), dataset->values.begin() + static_cast<std::ptrdiff_t>(first + n)};
+    return {dataset->values.begin() + static_cast<std::ptrdiff_t>(first),
+            dataset->values.begin() + static_cast<std::ptrdiff_t>(first + n)};
   }
 };
 Cube cube_of(const io::ResultFile& file, const std::string& path, std::size_t intervals, std::size_t bins) {
   const io::Dataset* d = file.find(path);
   if (d && (d->shape.size() != 3 || d->shape[0] != intervals || d->shape[2] != bins))
-    throw FileError(fmt::format("{}: {}: has not the shape [{}, bands, {}] that time and edges ask for", file.file.string(), path, intervals, bins));
+    throw FileError(fmt::format("{}: {}: has not the shape [{}, bands, {}] that time and edges ask for",
+                                file.file.string(), path, intervals, bins));
   return {d};
 }
 
@@ -89,7 +92,9 @@ void add_profiles(HtmlReport& page, const RunView& view) {
     plot.y = {"height", "µm", 0, {}, false, true};
     plot.read_by_height = true;
     plot.height = 420;
-    add_times(plot, view, time.all(), 6, [&](std::size_t k) { return Series{"", scaled(values.row(k), 100), heights(k)}; });
+    add_times(plot, view, time.all(), 6, [&](std::size_t k) {
+      return Series{"", scaled(values.row(k), 100), heights(k)};
+    });
     plots.push_back(std::move(plot));
   };
   profile("mass_fraction", "Solids over the height, by weight", "wt%");
@@ -97,7 +102,8 @@ void add_profiles(HtmlReport& page, const RunView& view) {
 
   // Size classes over the relative height, so that layers of any thickness compare.
   const auto borders = rows_of(*file, "/solids/size_class_borders").all();
-  const auto classes = [&](const char* name, const char* title, const char* label, double factor, const char* unit) {
+  const auto classes = [&](const char* name, const char* title, const char* label, double factor,
+                           const char* unit) {
     Plot plot;
     plot.title = title;
     plot.x = {label, unit, {}, {}, false, true};
@@ -111,17 +117,26 @@ void add_profiles(HtmlReport& page, const RunView& view) {
     for (const std::size_t k : evenly_in_time(time.all(), time.rows > 1 ? 120 : 1)) {
       PlotFrame frame{view.when(time.at(k)), {}};
       for (std::size_t c = 0; c < values.size(); ++c)
-        if (values[c]) frame.series.push_back({class_name(borders, c), scaled(values[c].row(k), factor), heights(k), {}, SeriesStyle::Line, static_cast<int>(c)});
+        if (values[c])
+          frame.series.push_back({class_name(borders, c),
+                                  scaled(values[c].row(k), factor),
+                                  heights(k),
+                                  {},
+                                  SeriesStyle::Line,
+                                  static_cast<int>(c)});
       plot.frames.push_back(std::move(frame));
     }
     plots.push_back(std::move(plot));
   };
   if (!borders.empty()) {
-    classes("number_fraction", "Size classes over the height, by number", "share of the particles at that height", 100, "%");
+    classes("number_fraction", "Size classes over the height, by number",
+            "share of the particles at that height", 100, "%");
     classes("volume_fraction", "Size classes over the height, by volume", "solids of the class", 100, "vol%");
   }
   if (plots.empty()) return;
-  page.section("Solids profiles", "Profiles from the substrate (height 0) to the surface. The slider goes through the frames; the thin lines stay.");
+  page.section("Solids profiles",
+               "Profiles from the substrate (height 0) to the surface. The slider goes through the frames; "
+               "the thin lines stay.");
   page.plots(plots);
 }
 
@@ -134,23 +149,42 @@ void add_clusters(HtmlReport& page, const RunView& view) {
   const auto times = view.shown_times(time.all());
   const auto add = [&](Plot& plot, const char* name, const char* label, double factor, int colour) {
     if (const Rows v = rows_of(*file, std::string("/cluster/") + name, time.rows, 1))
-      plot.series.push_back({label, times, scaled(v.all(), factor), {}, time.rows > 1 ? SeriesStyle::Line : SeriesStyle::Points, colour});
+      plot.series.push_back({label,
+                             times,
+                             scaled(v.all(), factor),
+                             {},
+                             time.rows > 1 ? SeriesStyle::Line : SeriesStyle::Points,
+                             colour});
   };
-  Plot share{"Particles in clusters", "", view.time_axis(), {"share of the particles", "%", {}, {}, false, true}, {}, view.immobilisation_marker(), {}};
+  Plot share{"Particles in clusters",
+             "",
+             view.time_axis(),
+             {"share of the particles", "%", {}, {}, false, true},
+             {},
+             view.immobilisation_marker(),
+             {}};
   add(share, "clustered_fraction", "in any cluster", 100, 0);
   add(share, "largest_fraction", "in the largest cluster", 100, 1);
   add(share, "clustered_volume_fraction", "in any cluster, by volume", 100, 2);
   if (!share.series.empty()) plots.push_back(share);
-  Plot number{"Number of clusters", "", view.time_axis(), {"clusters", "", {}, {}, false, true}, {}, view.immobilisation_marker(), {}};
+  Plot number{"Number of clusters",         "", view.time_axis(), {"clusters", "", {}, {}, false, true}, {},
+              view.immobilisation_marker(), {}};
   add(number, "count", "", 1, 0);
   if (!number.series.empty()) plots.push_back(number);
-  Plot tall{"Tallest cluster", "", view.time_axis(), {"vertical extent", "µm", {}, {}, false, true}, {}, view.immobilisation_marker(), {}};
+  Plot tall{"Tallest cluster",
+            "",
+            view.time_axis(),
+            {"vertical extent", "µm", {}, {}, false, true},
+            {},
+            view.immobilisation_marker(),
+            {}};
   add(tall, "largest_extent", "", 1, 0);
   if (!tall.series.empty()) plots.push_back(tall);
   if (plots.empty()) return;
   std::string text;
   if (const auto found = file->numbers.find("threshold"); found != file->numbers.end())
-    text = fmt::format("Particles whose surfaces are closer than {} nm are connected.", number_text(1e9 * found->second));
+    text = fmt::format("Particles whose surfaces are closer than {} nm are connected.",
+                       number_text(1e9 * found->second));
   page.section("Clusters", text);
   page.plots(plots);
 }
@@ -178,13 +212,18 @@ void add_separations(HtmlReport& page, const RunView& view) {
       plot.title = "Near contact";
       plot.x = {"surface separation", "nm", {}, {}, false, true};
       plot.y = {"share of the near pairs that are closer", "%", {}, {}, false, true};
-      add_times(plot, view, time.all(), 5, [&](std::size_t k) { return Series{"", scaled(near.all(), 1000), scaled(cumulative.row(k), 100)}; });
+      add_times(plot, view, time.all(), 5, [&](std::size_t k) {
+        return Series{"", scaled(near.all(), 1000), scaled(cumulative.row(k), 100)};
+      });
       plots.push_back(std::move(plot));
     }
-  const auto in_time = [&](const char* name, const char* title, const char* label, const char* unit, double factor) {
+  const auto in_time = [&](const char* name, const char* title, const char* label, const char* unit,
+                           double factor) {
     const Rows v = rows_of(*file, std::string("/separation/") + name, time.rows, 1);
     if (v.rows < 2) return;
-    Plot plot{title, "", view.time_axis(), {label, unit, {}, {}, false, true}, {}, view.immobilisation_marker(), {}};
+    Plot plot{
+        title, "", view.time_axis(), {label, unit, {}, {}, false, true}, {}, view.immobilisation_marker(),
+        {}};
     plot.series.push_back({"", view.shown_times(time.all()), scaled(v.all(), factor)});
     plots.push_back(std::move(plot));
   };
@@ -219,9 +258,16 @@ void add_mobility(HtmlReport& page, const RunView& view) {
     plot.x = {"displacement", "nm", {}, {}, false, true};
     plot.y = {"probability density", "1/nm", {}, {}, false, true};
     for (const std::size_t k : evenly_in_time(time.all(), 120)) {
-      PlotFrame frame{(start ? number_text(view.shown_time(start.at(k)), 4) + " to " : std::string("to ")) + view.when(time.at(k)), {}};
+      PlotFrame frame{(start ? number_text(view.shown_time(start.at(k)), 4) + " to " : std::string("to ")) +
+                          view.when(time.at(k)),
+                      {}};
       for (std::size_t b = 0; b < bands; ++b)
-        frame.series.push_back({band_name(b, bands), scaled(edges.all(), 1000), scaled(cube.line(k, b), 1e-3), {}, SeriesStyle::Steps, static_cast<int>(b)});
+        frame.series.push_back({band_name(b, bands),
+                                scaled(edges.all(), 1000),
+                                scaled(cube.line(k, b), 1e-3),
+                                {},
+                                SeriesStyle::Steps,
+                                static_cast<int>(b)});
       plot.frames.push_back(std::move(frame));
     }
     plots.push_back(std::move(plot));
@@ -231,9 +277,16 @@ void add_mobility(HtmlReport& page, const RunView& view) {
   const auto in_time = [&](const char* name, const char* title) {
     const Rows v = rows_of(*file, std::string("/mobility/all_sizes/") + name, time.rows);
     if (v.rows < 2) return;
-    Plot plot{title, "", view.time_axis(), {"rms displacement a frame", "nm", {}, {}, false, true}, {}, view.immobilisation_marker(), {}};
+    Plot plot{title,
+              "",
+              view.time_axis(),
+              {"rms displacement a frame", "nm", {}, {}, false, true},
+              {},
+              view.immobilisation_marker(),
+              {}};
     for (std::size_t b = 0; b < v.columns; ++b) {
-      Series s{band_name(b, v.columns), view.shown_times(time.all()), {}, {}, SeriesStyle::Line, static_cast<int>(b)};
+      Series s{band_name(b, v.columns), view.shown_times(time.all()), {}, {},
+               SeriesStyle::Line,       static_cast<int>(b)};
       for (std::size_t k = 0; k < v.rows; ++k) s.y.push_back(1000 * v.at(k, b));
       plot.series.push_back(std::move(s));
     }
@@ -244,58 +297,6 @@ void add_mobility(HtmlReport& page, const RunView& view) {
   if (plots.empty()) return;
   page.section("Mobility", "How far particles move between two frames, by the height at which they start.");
   page.plots(plots);
-}
-
-void add_brownian_calibration(HtmlReport& page, const RunView& view) {
-  const auto* file = view.files.result("kbrown");
-  if (!file) return;
-  const Rows temperature = rows_of(*file, "/kbrown/temperature");
-  if (!temperature) return;
-  const Rows value = rows_of(*file, "/kbrown/value", temperature.rows, 1), deviation = rows_of(*file, "/kbrown/standard_deviation", temperature.rows, 1);
-  const Rows closed = rows_of(*file, "/kbrown/closed_form", temperature.rows, 1), step = rows_of(*file, "/kbrown/time_step", temperature.rows, 1);
-  const auto si = [](const Rows& rows) { return scaled(rows.all(), 1 / to_engine(Dimension::BrownianConstant, 1)); };
-  std::vector<double> celsius = temperature.all();
-  for (double& t : celsius) t -= 273.15;
-  page.section("Brownian motion", "K_Brown as calibrated by simulations of a single particle (bars: standard deviation over the simulations), "
-                                  "beside its closed form for the same time step.");
-  if (temperature.rows > 1 && value) {
-    Plot plot;
-    plot.title = "K_Brown against temperature";
-    plot.x = {"temperature", "°C", {}, {}, false, false};
-    plot.y = {"K_Brown", "N/√m", {}, {}, false, false};
-    plot.series.push_back({"calibrated", celsius, si(value), deviation ? si(deviation) : std::vector<double>{}, SeriesStyle::Points, 0});
-    if (closed) plot.series.push_back({"closed form", celsius, si(closed), {}, SeriesStyle::Dashed, 1});
-    page.plots({plot});
-  }
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < temperature.rows; ++i) {
-    const auto cell = [&](const std::vector<double>& v, int digits) { return i < v.size() ? number_text(v[i], digits) : std::string("–"); };
-    std::string against = "–";
-    if (value && closed && closed.at(i) != 0) against = number_text(100 * (value.at(i) / closed.at(i) - 1), 2) + " %";
-    rows.push_back({cell(celsius, 4), step ? time_text(step.at(i)) : "–", value ? cell(si(value), 5) : "–", deviation ? cell(si(deviation), 2) : "–",
-                    closed ? cell(si(closed), 5) : "–", against});
-  }
-  page.table({"temperature (°C)", "time step", "K_Brown (N/√m)", "standard deviation", "closed form", "difference"}, rows);
-}
-
-void add_provenance(HtmlReport& page, const RunView& view) {
-  if (view.files.sources.empty()) return;
-  page.section("Provenance", "Every file names the tool that wrote it, the inputs by their SHA-256, and the parts of the scene that the tool read.");
-  std::vector<std::vector<std::string>> rows;
-  for (const SourceFile& s : view.files.sources) {
-    std::string inputs;
-    for (const auto& [role, hash] : s.provenance.inputs) inputs += (inputs.empty() ? "" : "; ") + role + " " + hash.substr(0, 16);
-    rows.push_back({s.path.filename().string(), s.kind, s.provenance.tool.empty() ? "made by hand" : s.provenance.tool, inputs.empty() ? "–" : inputs,
-                    io::sha256_of_file(s.path).substr(0, 16)});
-  }
-  page.table({"file", "kind", "made by", "from (SHA-256)", "its own SHA-256"}, rows);
-  // The scene, once for each set of blocks that differs.
-  std::vector<std::string> shown;
-  for (const SourceFile& s : view.files.sources) {
-    if (s.provenance.scene.empty() || std::find(shown.begin(), shown.end(), s.provenance.scene) != shown.end()) continue;
-    shown.push_back(s.provenance.scene);
-    page.folded("scene as read by " + s.provenance.tool, s.provenance.scene);
-  }
 }
 
 }  // namespace pigment::report

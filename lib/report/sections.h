@@ -10,14 +10,14 @@ namespace pigment::report {
 // What several sections show alike.
 struct RunView {
   const RunFiles& files;
-  double longest_time = 0;                     // ms, of any file of the run
-  bool in_seconds = true;                      // else milliseconds
-  std::optional<double> immobilisation_time;   // ms
+  double longest_time = 0;                    // ms, of any file of the run
+  bool in_seconds = true;                     // else milliseconds
+  std::optional<double> immobilisation_time;  // ms
 
   explicit RunView(const RunFiles&);
   double shown_time(double milliseconds) const { return in_seconds ? milliseconds / 1000 : milliseconds; }
   std::vector<double> shown_times(std::vector<double> milliseconds) const;
-  std::string when(double milliseconds) const;   // "0.125 s", all of one run in one unit
+  std::string when(double milliseconds) const;  // "0.125 s", all of one run in one unit
   Axis time_axis() const { return {"time", in_seconds ? "s" : "ms", {}, {}, false, true}; }
   std::vector<MarkerLine> immobilisation_marker() const;
 };
@@ -28,14 +28,15 @@ struct PictureWishes {
   int width = 420, height = 900;
 };
 void add_pictures(HtmlReport&, const RunView&, const PictureWishes&);
+void add_packing(HtmlReport&, const RunView&);  // sizes, and how random the packing came out
 void add_dewatering(HtmlReport&, const RunView&);
-void add_development(HtmlReport&, const RunView&);   // thickness, solids, mass centre, pressures
-void add_profiles(HtmlReport&, const RunView&);      // solids and size classes over the thickness
+void add_development(HtmlReport&, const RunView&);  // thickness, solids, mass centre, pressures
+void add_profiles(HtmlReport&, const RunView&);     // solids and size classes over the thickness
 void add_clusters(HtmlReport&, const RunView&);
 void add_separations(HtmlReport&, const RunView&);
 void add_mobility(HtmlReport&, const RunView&);
 void add_brownian_calibration(HtmlReport&, const RunView&);
-void add_numerics(HtmlReport&, const RunView&);      // step size, solver, contacts
+void add_numerics(HtmlReport&, const RunView&);  // step size, solver, contacts
 void add_provenance(HtmlReport&, const RunView&);
 
 // The whole page.

@@ -8,9 +8,9 @@
 namespace pigment::report {
 namespace {
 
-// A glyph is its advance width and its strokes. A point is two base-36 digits, x and y; capitals stand from y = 6 to
-// k (20), small letters reach g (16), descenders 1. A stroke is a polyline; after '~' a smooth curve through its
-// points, after 'o' a smooth closed curve.
+// A glyph is its advance width and its strokes. A point is two base-36 digits, x and y; capitals stand from y
+// = 6 to k (20), small letters reach g (16), descenders 1. A stroke is a polyline; after '~' a smooth curve
+// through its points, after 'o' a smooth closed curve.
 struct Glyph {
   double advance;
   const char* strokes;
@@ -116,14 +116,17 @@ double digit(char c) { return c <= '9' ? c - '0' : c - 'a' + 10; }
 // Catmull-Rom spline through the points, eight pieces a span.
 Polyline smooth(const Polyline& p, bool closed) {
   const int n = static_cast<int>(p.size());
-  const auto at = [&](int i) { return p[static_cast<std::size_t>(closed ? (i % n + n) % n : std::clamp(i, 0, n - 1))]; };
+  const auto at = [&](int i) {
+    return p[static_cast<std::size_t>(closed ? (i % n + n) % n : std::clamp(i, 0, n - 1))];
+  };
   Polyline out;
   for (int i = 0; i < (closed ? n : n - 1); ++i)
     for (int k = 0; k < 8; ++k) {
       const double t = k / 8.0;
       const Point a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
       const auto value = [&](double pa, double pb, double pc, double pd) {
-        return 0.5 * (2 * pb + t * (pc - pa + t * (2 * pa - 5 * pb + 4 * pc - pd + t * (3 * (pb - pc) + pd - pa))));
+        return 0.5 *
+               (2 * pb + t * (pc - pa + t * (2 * pa - 5 * pb + 4 * pc - pd + t * (3 * (pb - pc) + pd - pa))));
       };
       out.push_back({value(a.x, b.x, c.x, d.x), value(a.y, b.y, c.y, d.y)});
     }
@@ -183,13 +186,18 @@ double distance_to_segment(double x, double y, Point a, Point b) {
 }
 
 // Fills everything within half a thickness of the lines, each pixel once, with smooth edges.
-void draw_strokes(Image& image, const std::vector<Polyline>& strokes, double thickness, Colour colour, double opacity) {
+void draw_strokes(Image& image, const std::vector<Polyline>& strokes, double thickness, Colour colour,
+                  double opacity) {
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
   for (const Polyline& s : strokes)
-    for (const Point p : s) left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+    for (const Point p : s)
+      left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y),
+      bottom = std::max(bottom, p.y);
   const double pad = 0.5 * thickness + 1;
-  const int x0 = std::max(0, static_cast<int>(std::floor(left - pad))), x1 = std::min(image.width - 1, static_cast<int>(std::ceil(right + pad)));
-  const int y0 = std::max(0, static_cast<int>(std::floor(top - pad))), y1 = std::min(image.height - 1, static_cast<int>(std::ceil(bottom + pad)));
+  const int x0 = std::max(0, static_cast<int>(std::floor(left - pad))),
+            x1 = std::min(image.width - 1, static_cast<int>(std::ceil(right + pad)));
+  const int y0 = std::max(0, static_cast<int>(std::floor(top - pad))),
+            y1 = std::min(image.height - 1, static_cast<int>(std::ceil(bottom + pad)));
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       double nearest = 1e9;
@@ -210,8 +218,8 @@ double text_width(const std::string& text, double cap_height) {
   return std::max(0.0, units - 4) * cap_height / cap_units;  // without the space behind the last letter
 }
 
-void draw_text(Image& image, double x, double baseline_y, const std::string& text, double cap_height, Colour colour,
-               TextAnchor anchor) {
+void draw_text(Image& image, double x, double baseline_y, const std::string& text, double cap_height,
+               Colour colour, TextAnchor anchor) {
   const double scale = cap_height / cap_units, thickness = std::max(1.15, 0.135 * cap_height);
   const double width = text_width(text, cap_height);
   double pen = x - (anchor == TextAnchor::Middle ? 0.5 * width : anchor == TextAnchor::End ? width : 0.0);
@@ -224,7 +232,8 @@ void draw_text(Image& image, double x, double baseline_y, const std::string& tex
   }
 }
 
-void draw_line(Image& image, double x0, double y0, double x1, double y1, double thickness, Colour colour, double opacity) {
+void draw_line(Image& image, double x0, double y0, double x1, double y1, double thickness, Colour colour,
+               double opacity) {
   draw_strokes(image, {{{x0, y0}, {x1, y1}}}, thickness, colour, opacity);
 }
 

@@ -14,6 +14,7 @@ double text_width(const std::string& text, double cap_height);
 void draw_text(Image&, double x, double baseline_y, const std::string& text, double cap_height, Colour,
                TextAnchor = TextAnchor::Start);
 // A straight line with round ends.
-void draw_line(Image&, double x0, double y0, double x1, double y1, double thickness, Colour, double opacity = 1);
+void draw_line(Image&, double x0, double y0, double x1, double y1, double thickness, Colour,
+               double opacity = 1);
 
 }  // namespace pigment::report

@@ -16,7 +16,8 @@ struct Scale {
   double low = 0, high = 1, begin = 0, end = 1;  // data range and the pixels it maps to
   bool logarithmic = false;
   double operator()(double v) const {
-    const double t = logarithmic ? std::log(std::max(v, low * 1e-3) / low) / std::log(high / low) : (v - low) / (high - low);
+    const double t = logarithmic ? std::log(std::max(v, low * 1e-3) / low) / std::log(high / low)
+                                 : (v - low) / (high - low);
     return begin + t * (end - begin);
   }
 };
@@ -57,8 +58,10 @@ Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, dou
   if (axis.from_zero && low == 0 && high == 0) high = 1;
   if (low == high) {
     const double pad = low == 0 ? 1 : 0.1 * std::abs(low);
-    if (axis.logarithmic) low /= 2, high *= 2;
-    else low -= pad, high += pad;
+    if (axis.logarithmic)
+      low /= 2, high *= 2;
+    else
+      low -= pad, high += pad;
   }
   // Air above and below the curves, none beside them; zero stays at the axis.
   if (!is_x || plot.read_by_height) {
@@ -71,7 +74,9 @@ Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, dou
       if (high != 0) high += pad;
     }
   }
-  const bool points_at_edge = is_x && std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.style == SeriesStyle::Points; });
+  const bool points_at_edge =
+      is_x && std::any_of(plot.series.begin(), plot.series.end(),
+                          [](const Series& s) { return s.style == SeriesStyle::Points; });
   if (points_at_edge && !axis.logarithmic) {
     const double pad = 0.04 * (high - low);
     low -= pad, high += pad;
@@ -81,7 +86,8 @@ Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, dou
   return {low, high, begin, end, axis.logarithmic};
 }
 
-// Ticks, and the power of ten taken out of their labels into the axis' title where the numbers are very small or large.
+// Ticks, and the power of ten taken out of their labels into the axis' title where the numbers are very small
+// or large.
 struct AxisTicks {
   Ticks ticks;
   int exponent = 0;
@@ -120,7 +126,8 @@ std::string axis_title(const Axis& a, int exponent) {
 }
 
 std::size_t letters_in(const std::string& utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(
+      utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 std::string path_of(const Series& s, const Scale& x, const Scale& y) {
@@ -143,41 +150,49 @@ std::string path_of(const Series& s, const Scale& x, const Scale& y) {
   return path;
 }
 
-std::string series_group(const Series& s, std::size_t index, const Scale& x, const Scale& y, bool emphasised) {
-  std::string out = fmt::format(R"(<g class="series{}" data-series="{}" style="color:{}">)", emphasised ? " current" : "", index,
-                                html_escape(colour_of(s, index)));
+std::string series_group(const Series& s, std::size_t index, const Scale& x, const Scale& y,
+                         bool emphasised) {
+  std::string out = fmt::format(R"(<g class="series{}" data-series="{}" style="color:{}">)",
+                                emphasised ? " current" : "", index, html_escape(colour_of(s, index)));
   const bool points = s.style == SeriesStyle::Points || s.style == SeriesStyle::LineAndPoints;
   if (s.style != SeriesStyle::Points)
-    out += fmt::format(R"(<path class="line{}" d="{}"/>)", s.style == SeriesStyle::Dashed ? " dashed" : "", path_of(s, x, y));
+    out += fmt::format(R"(<path class="line{}" d="{}"/>)", s.style == SeriesStyle::Dashed ? " dashed" : "",
+                       path_of(s, x, y));
   for (std::size_t i = 0; i < s.error.size() && i < s.y.size(); ++i)
     if (s.error[i] > 0)
-      out += fmt::format(R"(<path class="bar" d="M{0} {1}V{2}M{3} {1}h8M{3} {2}h8"/>)", px(x(s.x[i])), px(y(s.y[i] - s.error[i])),
-                         px(y(s.y[i] + s.error[i])), px(x(s.x[i]) - 4));
+      out += fmt::format(R"(<path class="bar" d="M{0} {1}V{2}M{3} {1}h8M{3} {2}h8"/>)", px(x(s.x[i])),
+                         px(y(s.y[i] - s.error[i])), px(y(s.y[i] + s.error[i])), px(x(s.x[i]) - 4));
   if (points)
     for (std::size_t i = 0; i < s.y.size(); ++i)
-      if (std::isfinite(s.y[i])) out += fmt::format(R"(<circle class="dot" cx="{}" cy="{}" r="3.2"/>)", px(x(s.x[i])), px(y(s.y[i])));
+      if (std::isfinite(s.y[i]))
+        out += fmt::format(R"(<circle class="dot" cx="{}" cy="{}" r="3.2"/>)", px(x(s.x[i])), px(y(s.y[i])));
   return out + "</g>";
 }
 
-std::string axes(const Plot& plot, const Scale& x, const Scale& y, const AxisTicks& along_x, const AxisTicks& along_y) {
+std::string axes(const Plot& plot, const Scale& x, const Scale& y, const AxisTicks& along_x,
+                 const AxisTicks& along_y) {
   const Ticks &x_ticks = along_x.ticks, &y_ticks = along_y.ticks;
   std::string out;
   const double floor = y.begin, ceiling = y.end;
   for (std::size_t i = 0; i < x_ticks.values.size(); ++i) {
     const double v = x_ticks.values[i];
-    out += fmt::format(R"(<path class="grid" d="M{0} {1}V{2}"/><text class="tick" x="{0}" y="{3}" text-anchor="middle">{4}</text>)", px(x(v)),
-                       px(floor), px(ceiling), px(floor + 18), x_ticks.labels[i]);
+    out += fmt::format(
+        R"(<path class="grid" d="M{0} {1}V{2}"/><text class="tick" x="{0}" y="{3}" text-anchor="middle">{4}</text>)",
+        px(x(v)), px(floor), px(ceiling), px(floor + 18), x_ticks.labels[i]);
   }
   for (std::size_t i = 0; i < y_ticks.values.size(); ++i) {
     const double v = y_ticks.values[i];
-    out += fmt::format(R"(<path class="grid" d="M{0} {1}H{2}"/><text class="tick" x="{3}" y="{4}" text-anchor="end">{5}</text>)", px(x.begin),
-                       px(y(v)), px(x.end), px(x.begin - 8), px(y(v) + 4), y_ticks.labels[i]);
+    out += fmt::format(
+        R"(<path class="grid" d="M{0} {1}H{2}"/><text class="tick" x="{3}" y="{4}" text-anchor="end">{5}</text>)",
+        px(x.begin), px(y(v)), px(x.end), px(x.begin - 8), px(y(v) + 4), y_ticks.labels[i]);
   }
-  out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", px(x.begin), px(ceiling), px(floor), px(x.end));
-  out += fmt::format(R"(<text class="label" x="{}" y="{}" text-anchor="middle">{}</text>)", px(0.5 * (x.begin + x.end)), px(floor + 40),
-                     axis_title(plot.x, along_x.exponent));
-  out += fmt::format(R"svg(<text class="label" transform="translate(16 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
-                     px(0.5 * (floor + ceiling)), axis_title(plot.y, along_y.exponent));
+  out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", px(x.begin), px(ceiling), px(floor),
+                     px(x.end));
+  out += fmt::format(R"(<text class="label" x="{}" y="{}" text-anchor="middle">{}</text>)",
+                     px(0.5 * (x.begin + x.end)), px(floor + 40), axis_title(plot.x, along_x.exponent));
+  out += fmt::format(
+      R"svg(<text class="label" transform="translate(16 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
+      px(0.5 * (floor + ceiling)), axis_title(plot.y, along_y.exponent));
   return out;
 }
 
@@ -186,15 +201,17 @@ std::string marker_lines(const Plot& plot, const Scale& x, const Scale& y) {
   for (std::size_t i = 0; i < plot.markers.size(); ++i) {
     const MarkerLine& m = plot.markers[i];
     if (plot.read_by_height) {
-      out += fmt::format(R"(<path class="marker" d="M{0} {1}H{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="end">{5}</text>)",
-                         px(x.begin), px(y(m.value)), px(x.end), px(x.end - 4), px(y(m.value) - 5), html_escape(m.label));
+      out += fmt::format(
+          R"(<path class="marker" d="M{0} {1}H{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="end">{5}</text>)",
+          px(x.begin), px(y(m.value)), px(x.end), px(x.end - 4), px(y(m.value) - 5), html_escape(m.label));
       continue;
     }
     const double at = x(m.value);
     const bool flip = at > 0.62 * (x.begin + x.end);  // keep the label inside the plot
-    out += fmt::format(R"(<path class="marker" d="M{0} {1}V{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="{5}">{6}</text>)", px(at),
-                       px(y.begin), px(y.end), px(at + (flip ? -6 : 6)), px(y.end + 13 + 15 * static_cast<double>(i % 3)), flip ? "end" : "start",
-                       html_escape(m.label));
+    out += fmt::format(
+        R"(<path class="marker" d="M{0} {1}V{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="{5}">{6}</text>)",
+        px(at), px(y.begin), px(y.end), px(at + (flip ? -6 : 6)),
+        px(y.end + 13 + 15 * static_cast<double>(i % 3)), flip ? "end" : "start", html_escape(m.label));
   }
   return out;
 }
@@ -212,15 +229,16 @@ std::string json_series(const std::vector<Series>& all) {
   std::string out = "[";
   for (const Series& s : all) {
     if (out.size() > 1) out += ',';
-    out += fmt::format(R"({{"name":{},"steps":{},"x":{},"y":{}}})", json_string(s.name), s.style == SeriesStyle::Steps ? 1 : 0, json_numbers(s.x),
-                       json_numbers(s.y));
+    out += fmt::format(R"({{"name":{},"steps":{},"x":{},"y":{}}})", json_string(s.name),
+                       s.style == SeriesStyle::Steps ? 1 : 0, json_numbers(s.x), json_numbers(s.y));
   }
   return out + "]";
 }
 
 std::string json_scale(const Axis& a, const Scale& s) {
-  return fmt::format(R"({{"label":{},"unit":{},"low":{:.9g},"high":{:.9g},"begin":{},"end":{},"log":{}}})", json_string(a.label),
-                     json_string(a.unit), s.low, s.high, px(s.begin), px(s.end), s.logarithmic ? 1 : 0);
+  return fmt::format(R"({{"label":{},"unit":{},"low":{:.9g},"high":{:.9g},"begin":{},"end":{},"log":{}}})",
+                     json_string(a.label), json_string(a.unit), s.low, s.high, px(s.begin), px(s.end),
+                     s.logarithmic ? 1 : 0);
 }
 
 std::string data_script(const Plot& plot, const Scale& x, const Scale& y) {
@@ -229,20 +247,25 @@ std::string data_script(const Plot& plot, const Scale& x, const Scale& y) {
     if (frames.size() > 1) frames += ',';
     frames += fmt::format(R"({{"label":{},"series":{}}})", json_string(f.label), json_series(f.series));
   }
-  return fmt::format(R"(<script type="application/json">{{"x":{},"y":{},"byHeight":{},"series":{},"frames":{}]}}</script>)",
-                     json_scale(plot.x, x), json_scale(plot.y, y), plot.read_by_height ? 1 : 0, json_series(plot.series), frames);
+  return fmt::format(
+      R"(<script type="application/json">{{"x":{},"y":{},"byHeight":{},"series":{},"frames":{}]}}</script>)",
+      json_scale(plot.x, x), json_scale(plot.y, y), plot.read_by_height ? 1 : 0, json_series(plot.series),
+      frames);
 }
 
 std::string legend(const Plot& plot) {
   std::string keys;
   const auto add = [&](const Series& s, std::size_t i) {
     if (s.legend && !s.name.empty())
-      keys += fmt::format(R"(<button type="button" class="key{}" data-series="{}" aria-pressed="true"><i style="background:{}"></i>{}</button>)",
-                          s.style == SeriesStyle::Dashed ? " dashed" : "", i, html_escape(colour_of(s, i)), html_escape(s.name));
+      keys += fmt::format(
+          R"(<button type="button" class="key{}" data-series="{}" aria-pressed="true"><i style="background:{}"></i>{}</button>)",
+          s.style == SeriesStyle::Dashed ? " dashed" : "", i, html_escape(colour_of(s, i)),
+          html_escape(s.name));
   };
   for (std::size_t i = 0; i < plot.series.size(); ++i) add(plot.series[i], i);
   if (!plot.frames.empty())
-    for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i) add(plot.frames.back().series[i], plot.series.size() + i);
+    for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i)
+      add(plot.frames.back().series[i], plot.series.size() + i);
   return keys.empty() ? "" : R"(<div class="legend">)" + keys + "</div>";
 }
 
@@ -251,12 +274,18 @@ std::string legend(const Plot& plot) {
 std::string html_escape(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else if (c == '\'') out += "&#39;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
+      out += c;
   }
   return out;
 }
@@ -264,9 +293,12 @@ std::string html_escape(const std::string& text) {
 std::string json_string(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') out += fmt::format("\\{}", c);
-    else if (c == '<' || c == '>' || c == '&' || static_cast<unsigned char>(c) < 0x20) out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else out += c;
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (c == '<' || c == '>' || c == '&' || static_cast<unsigned char>(c) < 0x20)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
   }
   return out + "\"";
 }
@@ -280,21 +312,26 @@ std::string plot_figure(const Plot& plot, const std::string& id) {
   for (const std::string& label : y_ticks.ticks.labels) longest = std::max(longest, letters_in(label));
   const double left = std::max(54.0, 34 + 7.2 * static_cast<double>(longest));
   const Scale x = scale_for(plot, plot.x, true, left, width - right);
-  std::string out = fmt::format(R"(<figure class="plot" id="{}"><figcaption>{}</figcaption>)", id, html_escape(plot.title));
+  std::string out =
+      fmt::format(R"(<figure class="plot" id="{}"><figcaption>{}</figcaption>)", id, html_escape(plot.title));
   out += legend(plot);
-  out += fmt::format(R"(<div class="canvas"><svg viewBox="0 0 {} {}" role="img" tabindex="0" aria-label="{}">)", width, plot.height,
-                     html_escape(plot.title));
-  out += fmt::format(R"(<clipPath id="{}-clip"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>)", id, px(x.begin), px(y.end - 4),
-                     px(x.end - x.begin + 4), px(y.begin - y.end + 8));
-  out += axes(plot, x, y, ticks_for(x, 6), y_ticks) + fmt::format(R"svg(<g clip-path="url(#{}-clip)">)svg", id);
+  out +=
+      fmt::format(R"(<div class="canvas"><svg viewBox="0 0 {} {}" role="img" tabindex="0" aria-label="{}">)",
+                  width, plot.height, html_escape(plot.title));
+  out += fmt::format(R"(<clipPath id="{}-clip"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>)", id,
+                     px(x.begin), px(y.end - 4), px(x.end - x.begin + 4), px(y.begin - y.end + 8));
+  out +=
+      axes(plot, x, y, ticks_for(x, 6), y_ticks) + fmt::format(R"svg(<g clip-path="url(#{}-clip)">)svg", id);
   for (std::size_t i = 0; i < plot.series.size(); ++i) out += series_group(plot.series[i], i, x, y, false);
   if (!plot.frames.empty())
     for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i)
       out += series_group(plot.frames.back().series[i], plot.series.size() + i, x, y, true);
-  out += "</g>" + marker_lines(plot, x, y) + R"(<g class="hover"></g></svg><div class="tip" hidden></div></div>)";
+  out += "</g>" + marker_lines(plot, x, y) +
+         R"(<g class="hover"></g></svg><div class="tip" hidden></div></div>)";
   if (plot.frames.size() > 1)
-    out += fmt::format(R"(<label class="slider"><input type="range" min="0" max="{0}" value="{0}" step="1" aria-label="time"><output>{1}</output></label>)",
-                       plot.frames.size() - 1, html_escape(plot.frames.back().label));
+    out += fmt::format(
+        R"(<label class="slider"><input type="range" min="0" max="{0}" value="{0}" step="1" aria-label="time"><output>{1}</output></label>)",
+        plot.frames.size() - 1, html_escape(plot.frames.back().label));
   if (!plot.note.empty()) out += "<p class=\"note\">" + html_escape(plot.note) + "</p>";
   return out + data_script(plot, x, y) + "</figure>\n";
 }

@@ -1,7 +1,7 @@
 #pragma once
-// Line plots as inline SVG for a page that stands alone. Colours are CSS variables of the page (light and dark); the
-// data stand beside the drawing as JSON, for the page's own script: read-out under the pointer, legend that switches
-// series, a slider over frames. Without the script the drawing stands as it is.
+// Line plots as inline SVG for a page that stands alone. Colours are CSS variables of the page (light and
+// dark); the data stand beside the drawing as JSON, for the page's own script: read-out under the pointer,
+// legend that switches series, a slider over frames. Without the script the drawing stands as it is.
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 namespace pigment::report {
 
 struct Axis {
-  std::string label, unit;           // unit "": a pure number
-  std::optional<double> low, high;   // absent: from the data
+  std::string label, unit;          // unit "": a pure number
+  std::optional<double> low, high;  // absent: from the data
   bool logarithmic = false;
-  bool from_zero = false;            // widen the range to zero
+  bool from_zero = false;  // widen the range to zero
 };
 
 enum class SeriesStyle { Line, Dashed, Points, LineAndPoints, Steps };
@@ -20,10 +20,10 @@ enum class SeriesStyle { Line, Dashed, Points, LineAndPoints, Steps };
 struct Series {
   std::string name;
   std::vector<double> x = {}, y = {};
-  std::vector<double> error = {};    // of y, empty: none
+  std::vector<double> error = {};         // of y, empty: none
   SeriesStyle style = SeriesStyle::Line;  // Steps: x holds one edge more than y
-  int colour = -1;                   // 0..7: palette; -1: by position
-  std::string fixed_colour = {};     // a CSS colour in place of the palette
+  int colour = -1;                        // 0..7: palette; -1: by position
+  std::string fixed_colour = {};          // a CSS colour in place of the palette
   bool legend = true;
 };
 
@@ -35,18 +35,18 @@ struct MarkerLine {
 
 // One instant of a plot with a slider: the curves that replace the ones shown.
 struct PlotFrame {
-  std::string label;                 // "0.125 s"
-  std::vector<Series> series;        // same number in every frame
+  std::string label;           // "0.125 s"
+  std::vector<Series> series;  // same number in every frame
 };
 
 struct Plot {
-  std::string title, note;           // note: one sentence below, may be empty
+  std::string title, note;  // note: one sentence below, may be empty
   Axis x, y;
   std::vector<Series> series;
   std::vector<MarkerLine> markers;
-  std::vector<PlotFrame> frames;     // with a slider; the last one is shown first
-  bool read_by_height = false;       // the pointer picks values by y (profiles drawn upright)
-  int height = 340;                  // of 640 wide
+  std::vector<PlotFrame> frames;  // with a slider; the last one is shown first
+  bool read_by_height = false;    // the pointer picks values by y (profiles drawn upright)
+  int height = 340;               // of 640 wide
 };
 
 // The whole figure: title, legend, drawing, slider, note, data. id: unique on the page, letters and digits.

@@ -34,9 +34,11 @@ Ticks linear_ticks(double low, double high, int wanted) {
     if (factor * decade >= rough * 0.999999) step = factor * decade;
   // A quarter step needs one digit more than its decade.
   const bool quarter = std::abs(step / decade - 2.5) < 1e-9;
-  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)) + (quarter ? 1 : 0));
+  const int decimals =
+      std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)) + (quarter ? 1 : 0));
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
-  const bool exponents = std::max(std::abs(low), std::abs(high)) >= 1e6 || std::max(std::abs(low), std::abs(high)) < 1e-3;
+  const bool exponents =
+      std::max(std::abs(low), std::abs(high)) >= 1e6 || std::max(std::abs(low), std::abs(high)) < 1e-3;
   for (double i = first; i <= last; ++i) {
     const double value = i == 0 ? 0 : i * step;
     ticks.values.push_back(value);
@@ -47,7 +49,8 @@ Ticks linear_ticks(double low, double high, int wanted) {
 
 Ticks logarithmic_ticks(double low, double high) {
   Ticks ticks;
-  const int first = static_cast<int>(std::floor(std::log10(low) - 1e-9)), last = static_cast<int>(std::ceil(std::log10(high) + 1e-9));
+  const int first = static_cast<int>(std::floor(std::log10(low) - 1e-9)),
+            last = static_cast<int>(std::ceil(std::log10(high) + 1e-9));
   const double decades = std::log10(high / low);
   const std::vector<double> factors = decades < 2.2 ? std::vector<double>{1, 2, 5} : std::vector<double>{1};
   const int every = std::max(1, static_cast<int>(std::ceil(decades / 7)));
@@ -98,8 +101,11 @@ std::vector<std::size_t> evenly_in_time(const std::vector<double>& time, std::si
   if (time.empty() || wanted == 0) return chosen;
   const double first = time.front(), last = time.back();
   for (std::size_t k = 0; k < wanted; ++k) {
-    const double at = wanted == 1 ? last : first + (last - first) * static_cast<double>(k) / static_cast<double>(wanted - 1);
-    const auto nearest = std::min_element(time.begin(), time.end(), [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
+    const double at = wanted == 1
+                          ? last
+                          : first + (last - first) * static_cast<double>(k) / static_cast<double>(wanted - 1);
+    const auto nearest = std::min_element(
+        time.begin(), time.end(), [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
     const auto index = static_cast<std::size_t>(nearest - time.begin());
     if (chosen.empty() || index > chosen.back()) chosen.push_back(index);
   }

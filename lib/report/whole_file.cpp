@@ -1,7 +1,7 @@
 #include "report/whole_file.h"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -23,7 +23,8 @@ void write_whole_file(const std::filesystem::path& path, const std::string& byte
     if (!in_place) ::unlink(part.c_str());
     throw OutputError(fmt::format("{}: {}: {}", path.string(), what, reason));
   };
-  if (std::filesystem::is_directory(status)) throw OutputError(fmt::format("{}: is a folder, not a file", path.string()));
+  if (std::filesystem::is_directory(status))
+    throw OutputError(fmt::format("{}: is a folder, not a file", path.string()));
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) fail("cannot be written");
   for (std::size_t done = 0; done < bytes.size();) {

@@ -95,14 +95,17 @@ TEST(Colour, SequentialScaleGetsLighterEvenly) {
   double before = -1;
   for (int i = 0; i <= 100; ++i) {
     const Colour c = sequential(i / 100.0);
-    const double luminance = 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;  // of linear sRGB, IEC 61966-2-1
+    const double luminance =
+        0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;  // of linear sRGB, IEC 61966-2-1
     EXPECT_GT(luminance, before) << i;
     before = luminance;
   }
 }
 
 TEST(Colour, SrgbRoundTrip) {
-  for (int v = 0; v < 256; ++v) EXPECT_EQ(to_srgb(from_srgb(v, 255 - v, v / 2)), (std::array<std::uint8_t, 3>{std::uint8_t(v), std::uint8_t(255 - v), std::uint8_t(v / 2)}));
+  for (int v = 0; v < 256; ++v)
+    EXPECT_EQ(to_srgb(from_srgb(v, 255 - v, v / 2)),
+              (std::array<std::uint8_t, 3>{std::uint8_t(v), std::uint8_t(255 - v), std::uint8_t(v / 2)}));
   EXPECT_EQ(to_hex(from_srgb(31, 119, 180)), "#1f77b4");
 }
 
@@ -147,7 +150,8 @@ TEST(StrokeFont, WidthIsWhatItDraws) {
 }
 
 TEST(ContactSheet, HoldsEveryPicture) {
-  const Image sheet = contact_sheet({Image(30, 20, {1, 0, 0}), Image(30, 20, {0, 1, 0}), Image(30, 20, {0, 0, 1})}, 2);
+  const Image sheet =
+      contact_sheet({Image(30, 20, {1, 0, 0}), Image(30, 20, {0, 1, 0}), Image(30, 20, {0, 0, 1})}, 2);
   int red = 0, green = 0, blue = 0;
   for (std::size_t i = 0; i < sheet.rgb.size(); i += 3) {
     red += sheet.rgb[i] == 255 && sheet.rgb[i + 1] == 0;

@@ -1,4 +1,5 @@
-// Pictures against geometry: areas, order in depth, cuts, periodic images, and the same bytes at any thread count.
+// Pictures against geometry: areas, order in depth, cuts, periodic images, and the same bytes at any thread
+// count.
 #include "report/render.h"
 
 #include <gtest/gtest.h>
@@ -46,8 +47,8 @@ TEST(Render, SphereCoversItsCircle) {
     const Camera camera = looking(view, 10, scene.spheres[0].centre);
     const double area = covered(render(scene, camera, flat(300, 200)), 0);
     const double radius = 1.5 * 300 / 10;
-    // Counting grid points in a circle: the error is of the order of the square root of the rim's samples (here 9 a
-    // pixel); 0.2 % is three times that.
+    // Counting grid points in a circle: the error is of the order of the square root of the rim's samples
+    // (here 9 a pixel); 0.2 % is three times that.
     EXPECT_NEAR(area / (std::numbers::pi * radius * radius), 1, 2e-3);
   }
 }
@@ -104,7 +105,8 @@ TEST(Render, CutFillsTheFaceOfItsCircle) {
   EXPECT_EQ(covered(render(scene, looking(Camera::side(), 4), flat(50, 50)), 0), 0);
   // Two cuts leave a wedge: a quarter, seen from the side as half a disc.
   scene.cuts = {{-Vec3::UnitY(), 0}, {Vec3::UnitX(), 0}};
-  EXPECT_NEAR(covered(render(scene, looking(Camera::side(), 4), flat(400, 400)), 0) / 1e4, std::numbers::pi / 2, 1e-2);
+  EXPECT_NEAR(covered(render(scene, looking(Camera::side(), 4), flat(400, 400)), 0) / 1e4,
+              std::numbers::pi / 2, 1e-2);
 }
 
 TEST(Render, ConnectionsAreCylinders) {
@@ -155,7 +157,8 @@ TEST(Camera, FramesWhatItShows) {
       camera.eye_distance = eye;
       camera.frame(box, 640, 480);
       for (int corner = 0; corner < 8; ++corner) {
-        const auto [x, y] = camera.project({corner & 1 ? 5.0 : 0.0, corner & 2 ? 5.0 : 0.0, corner & 4 ? 20.0 : 0.0}, 640, 480);
+        const auto [x, y] = camera.project(
+            {corner & 1 ? 5.0 : 0.0, corner & 2 ? 5.0 : 0.0, corner & 4 ? 20.0 : 0.0}, 640, 480);
         EXPECT_TRUE(x >= 0 && x <= 640 && y >= 0 && y <= 480) << x << " " << y;
       }
     }

@@ -30,7 +30,8 @@ TEST(Ticks, AnyRangeGivesAFewOfThem) {
       EXPECT_GE(t.values.size(), 2u) << low << " " << span;
       EXPECT_LE(t.values.size(), 8u) << low << " " << span;
       for (const double v : t.values) {
-        const double slack = 1e-8 * span * scale + 1e-15 * scale;  // a tick on the edge itself, and its rounding
+        const double slack =
+            1e-8 * span * scale + 1e-15 * scale;  // a tick on the edge itself, and its rounding
         EXPECT_TRUE(v >= low - slack && v <= low + span * scale + slack) << v;
       }
       EXPECT_EQ(t.values.size(), t.labels.size());
@@ -59,7 +60,8 @@ TEST(Ticks, NumbersReadWell) {
 
 TEST(Ticks, FramesSpreadOverTime) {
   EXPECT_EQ(evenly_in_time({0, 1, 2, 3, 4, 5, 6}, 4), (std::vector<std::size_t>{0, 2, 4, 6}));
-  EXPECT_EQ(evenly_in_time({0, 1, 2, 90, 100}, 3), (std::vector<std::size_t>{0, 3, 4}));  // 90 is nearer to 50 than 2 is
+  EXPECT_EQ(evenly_in_time({0, 1, 2, 90, 100}, 3),
+            (std::vector<std::size_t>{0, 3, 4}));  // 90 is nearer to 50 than 2 is
   EXPECT_EQ(evenly_in_time({5}, 4), std::vector<std::size_t>{0});
   EXPECT_TRUE(evenly_in_time({}, 4).empty());
 }
@@ -140,8 +142,11 @@ TEST(HtmlReport, StandsAlone) {
     for (std::size_t at = page.find(what); at != std::string::npos; at = page.find(what, at + 1)) ++n;
     return n;
   };
-  for (const char* tag : {"section", "figure", "div", "table", "details", "svg", "dl", "button", "label", "p"})
-    EXPECT_EQ(count("<" + std::string(tag) + ">") + count("<" + std::string(tag) + " "), count("</" + std::string(tag) + ">")) << tag;
+  for (const char* tag :
+       {"section", "figure", "div", "table", "details", "svg", "dl", "button", "label", "p"})
+    EXPECT_EQ(count("<" + std::string(tag) + ">") + count("<" + std::string(tag) + " "),
+              count("</" + std::string(tag) + ">"))
+        << tag;
 }
 
 }  // namespace

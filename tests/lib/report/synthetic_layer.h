@@ -7,7 +7,8 @@
 
 namespace pigment::tests {
 
-inline Layer synthetic_layer(std::size_t count, double width, double height, double smallest, double largest) {
+inline Layer synthetic_layer(std::size_t count, double width, double height, double smallest,
+                             double largest) {
   Layer layer;
   layer.cell = {width, width, height};
   std::vector<double> radius;
@@ -21,13 +22,16 @@ inline Layer synthetic_layer(std::size_t count, double width, double height, dou
   const double cell = 2 * largest;
   const int n = std::max(1, static_cast<int>(width / cell)), m = static_cast<int>(height / cell) + 2;
   std::vector<std::vector<std::size_t>> grid(static_cast<std::size_t>(n * n * m));
-  const auto index = [&](int x, int y, int z) { return static_cast<std::size_t>((z * n + (y % n + n) % n) * n + (x % n + n) % n); };
+  const auto index = [&](int x, int y, int z) {
+    return static_cast<std::size_t>((z * n + (y % n + n) % n) * n + (x % n + n) % n);
+  };
   for (std::size_t i = 0; i < count; ++i)
     for (std::uint64_t attempt = 0; attempt < 2000; ++attempt) {
       const auto u = random_uniforms({8, Stream::Tests}, i, attempt);
       const double a = radius[i];
       const Vec3 p(u[0] * width, u[1] * width, a + u[2] * (height - 2 * a));
-      const int x = static_cast<int>(p.x() / width * n), y = static_cast<int>(p.y() / width * n), z = static_cast<int>(p.z() / cell);
+      const int x = static_cast<int>(p.x() / width * n), y = static_cast<int>(p.y() / width * n),
+                z = static_cast<int>(p.z() / cell);
       bool free = true;
       for (int dz = -1; dz <= 1 && free; ++dz)
         for (int dy = -1; dy <= 1 && free; ++dy)
