@@ -43,13 +43,15 @@ struct Header {
   std::vector<UnitConversion> conversion;
 };
 
-Header read_header(const std::string& where, const std::string& line, const std::vector<CsvColumn>& expected) {
+Header read_header(const std::string& where, const std::string& line,
+                   const std::vector<CsvColumn>& expected) {
   const std::string wanted = "; expected a header such as \"" + header_of(expected) + "\"";
   Header header;
   for (const std::string& field : fields_of(line)) {
     const auto bracket = field.find('[');
     const std::string name = trimmed(field.substr(0, bracket));
-    const auto known = std::find_if(expected.begin(), expected.end(), [&](const CsvColumn& c) { return c.name == name; });
+    const auto known =
+        std::find_if(expected.begin(), expected.end(), [&](const CsvColumn& c) { return c.name == name; });
     if (known == expected.end()) throw FileError(where + "unknown column \"" + field + "\"" + wanted);
     for (const CsvColumn& c : header.columns)
       if (c.name == name) throw FileError(where + "column \"" + name + "\" stands twice" + wanted);
@@ -59,8 +61,8 @@ Header read_header(const std::string& where, const std::string& line, const std:
       const std::string unit = trimmed(field.substr(bracket + 1, field.size() - bracket - 2));
       conversion = conversion_to_si(unit, known->dimension);
       if (!conversion.ok)
-        throw FileError(where + "column \"" + name + "\": [" + unit + "] is not a unit of " + info(known->dimension).name +
-                        wanted);
+        throw FileError(where + "column \"" + name + "\": [" + unit + "] is not a unit of " +
+                        info(known->dimension).name + wanted);
     } else if (known->dimension != Dimension::Number) {
       throw FileError(where + "column \"" + name + "\" names no unit" + wanted);
     }
@@ -115,8 +117,8 @@ CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvColumn
     }
     const auto fields = fields_of(text);
     if (fields.size() != header.columns.size())
-      throw FileError(where + "expected " + std::to_string(header.columns.size()) + " fields as in the header, found " +
-                      std::to_string(fields.size()));
+      throw FileError(where + "expected " + std::to_string(header.columns.size()) +
+                      " fields as in the header, found " + std::to_string(fields.size()));
     for (std::size_t c = 0; c < fields.size(); ++c) {
       const double value = read_field(where, header.columns[c].name, fields[c]);
       const double si = header.conversion[c].factor * value + header.conversion[c].offset;

@@ -16,9 +16,9 @@ struct CsvColumn {
 
 struct CsvTable {
   std::filesystem::path file;
-  std::vector<CsvColumn> columns;            // those that the file has, in its order
-  std::vector<std::vector<double>> values;   // [column][row], engine units
-  std::vector<int> line;                     // of each row, counted from 1
+  std::vector<CsvColumn> columns;           // those that the file has, in its order
+  std::vector<std::vector<double>> values;  // [column][row], engine units
+  std::vector<int> line;                    // of each row, counted from 1
 
   std::size_t row_count() const { return line.size(); }
   // The values of a column; nullptr where the file lacks it.
@@ -27,10 +27,10 @@ struct CsvTable {
   [[noreturn]] void fail(std::size_t row, const std::string& message) const;
 };
 
-// Reads a file with one header line; empty lines and lines that begin with # are skipped, fields may stand in spaces.
-// Any order of columns will do. Throws FileError, with the line, for a file that cannot be read, an unknown, missing or
-// repeated column, a unit that is missing or of another dimension, a row of the wrong length, a field that is not a
-// finite number, and a file without rows.
+// Reads a file with one header line; empty lines and lines that begin with # are skipped, fields may stand in
+// spaces. Any order of columns will do. Throws FileError, with the line, for a file that cannot be read, an
+// unknown, missing or repeated column, a unit that is missing or of another dimension, a row of the wrong
+// length, a field that is not a finite number, and a file without rows.
 CsvTable read_csv(const std::filesystem::path&, const std::vector<CsvColumn>& expected);
 
 }  // namespace pigment::config

@@ -30,7 +30,8 @@ LayerParameters read_layer(config::Node node) {
   if (layer.thickness && layer.coat_weight)
     node.error("coat_weight", "thickness and coat_weight both fix how much is coated; give one of them");
   if (!node.has("thickness") && !node.has("coat_weight"))
-    node.error("thickness", "is missing; give thickness (e.g. \"25 um\") or coat_weight (dry, e.g. \"26 g/m2\")");
+    node.error("thickness",
+               "is missing; give thickness (e.g. \"25 um\") or coat_weight (dry, e.g. \"26 g/m2\")");
   const SolidsContent solids = read_solids(node, "solids");
   layer.solids = solids.fraction;
   layer.solids_by_weight = solids.by_weight;
@@ -57,7 +58,8 @@ double dry_density(const std::vector<Species>& species) {
   return parts / volume;
 }
 
-LayerTarget layer_target(const LayerParameters& layer, const std::vector<Species>& species, double liquid_density) {
+LayerTarget layer_target(const LayerParameters& layer, const std::vector<Species>& species,
+                         double liquid_density) {
   const double density = dry_density(species);
   LayerTarget target{};
   if (layer.solids_by_weight) {
@@ -67,7 +69,8 @@ LayerTarget layer_target(const LayerParameters& layer, const std::vector<Species
     target.volume_fraction = layer.solids;
     target.mass_fraction = mass_fraction_of(layer.solids, density, liquid_density);
   }
-  target.thickness = layer.thickness ? *layer.thickness : layer.coat_weight.value_or(0) / (target.volume_fraction * density);
+  target.thickness =
+      layer.thickness ? *layer.thickness : layer.coat_weight.value_or(0) / (target.volume_fraction * density);
   return target;
 }
 

@@ -41,7 +41,8 @@ Bell bell_of(const SizeLaw& law) {
   bell.logarithmic = law.kind == SizeLaw::Kind::Lognormal;
   bell.centre = bell.logarithmic ? std::log(law.median) : law.mean;
   bell.width = bell.logarithmic ? std::log(law.geometric_standard_deviation) : law.standard_deviation;
-  if (!(bell.width > 0)) throw InputError("the size law's standard deviation is not above zero; use law: monodisperse");
+  if (!(bell.width > 0))
+    throw InputError("the size law's standard deviation is not above zero; use law: monodisperse");
   bell.low = law.min;
   bell.high = law.max;
   if (!(bell.low > 0 && bell.low < bell.high))
@@ -49,11 +50,12 @@ Bell bell_of(const SizeLaw& law) {
                      ", are not above zero and rising");
   // Where the cut-offs leave next to nothing of the law, one of the two is a slip of the pen.
   if (normal_probability(bell.x(bell.low), bell.x(bell.high)) < 1e-6)
-    throw InputError("the size law has less than a millionth of its weight between " + micrometres(bell.low) + " and " +
-                     micrometres(bell.high));
+    throw InputError("the size law has less than a millionth of its weight between " + micrometres(bell.low) +
+                     " and " + micrometres(bell.high));
   // Beyond this the law holds nothing that could be sampled; the grid stays fine within.
   constexpr double farthest = 9;
-  const double inner_low = bell.centre - farthest * bell.width, inner_high = bell.centre + farthest * bell.width;
+  const double inner_low = bell.centre - farthest * bell.width,
+               inner_high = bell.centre + farthest * bell.width;
   bell.low = std::max(bell.low, bell.logarithmic ? std::exp(inner_low) : inner_low);
   bell.high = std::min(bell.high, bell.logarithmic ? std::exp(inner_high) : inner_high);
   return bell;
@@ -70,12 +72,17 @@ Tabulated read_table(const SizeLaw& law) {
   const std::vector<double>& finer = *table.find("finer");
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     if (!(diameter[row] > 0)) table.fail(row, "diameter is not above zero");
+    // Beyond, a slip of the unit.
+    if (diameter[row] < 1e-3 || diameter[row] > 1e3)
+      table.fail(row, "diameter " + micrometres(diameter[row]) + " is not within 1 nm and 1 mm");
     if (!(finer[row] >= 0 && finer[row] <= 1)) table.fail(row, "finer is not within 0 and 100 wt%");
-    if (row > 0 && !(diameter[row] > diameter[row - 1])) table.fail(row, "diameter does not rise from row to row");
+    if (row > 0 && !(diameter[row] > diameter[row - 1]))
+      table.fail(row, "diameter does not rise from row to row");
     if (row > 0 && finer[row] < finer[row - 1]) table.fail(row, "finer falls; a cumulative curve never does");
   }
   if (table.row_count() < 2 || !(finer.back() > finer.front()))
-    throw FileError(law.file.string() + ": the curve does not rise; at least two rows with different finer are needed");
+    throw FileError(law.file.string() +
+                    ": the curve does not rise; at least two rows with different finer are needed");
   return {diameter, finer};
 }
 
@@ -127,13 +134,15 @@ SizeDistribution::SizeDistribution(const SizeLaw& law) {
   if (law.kind == SizeLaw::Kind::Table) {
     const Tabulated table = cut(read_table(law), law);
     diameter_ = table.diameter;
-    for (std::size_t k = 1; k < table.finer.size(); ++k) weight.push_back(table.finer[k] - table.finer[k - 1]);
+    for (std::size_t k = 1; k < table.finer.size(); ++k)
+      weight.push_back(table.finer[k] - table.finer[k - 1]);
   } else {
     const Bell bell = bell_of(law);
     for (int k = 0; k <= cells; ++k)
-      diameter_.push_back(k == 0       ? bell.low
-                          : k == cells ? bell.high
-                                       : bell.low * std::pow(bell.high / bell.low, static_cast<double>(k) / cells));
+      diameter_.push_back(k == 0 ? bell.low
+                          : k == cells
+                              ? bell.high
+                              : bell.low * std::pow(bell.high / bell.low, static_cast<double>(k) / cells));
     for (int k = 0; k < cells; ++k)
       weight.push_back(normal_probability(bell.x(diameter_[k]), bell.x(diameter_[k + 1])));
   }
@@ -155,15 +164,21 @@ void SizeDistribution::integrate(const std::vector<double>& weight_in_cell) {
 double SizeDistribution::weight_below(double d) const {
   if (d < smallest()) return 0;
   if (d >= largest()) return 1;
-  const auto k = static_cast<std::size_t>(std::upper_bound(diameter_.begin(), diameter_.end(), d) - diameter_.begin()) - 1;
-  return weight_[k] + (weight_[k + 1] - weight_[k]) * std::log(d / diameter_[k]) / std::log(diameter_[k + 1] / diameter_[k]);
+  const auto k =
+      static_cast<std::size_t>(std::upper_bound(diameter_.begin(), diameter_.end(), d) - diameter_.begin()) -
+      1;
+  return weight_[k] + (weight_[k + 1] - weight_[k]) * std::log(d / diameter_[k]) /
+                          std::log(diameter_[k + 1] / diameter_[k]);
 }
 
 double SizeDistribution::number_below(double d) const {
   if (d < smallest()) return 0;
   if (d >= largest()) return 1;
-  const auto k = static_cast<std::size_t>(std::upper_bound(diameter_.begin(), diameter_.end(), d) - diameter_.begin()) - 1;
-  const double part = std::expm1(-3 * std::log(d / diameter_[k])) / std::expm1(-3 * std::log(diameter_[k + 1] / diameter_[k]));
+  const auto k =
+      static_cast<std::size_t>(std::upper_bound(diameter_.begin(), diameter_.end(), d) - diameter_.begin()) -
+      1;
+  const double part = std::expm1(-3 * std::log(d / diameter_[k])) /
+                      std::expm1(-3 * std::log(diameter_[k + 1] / diameter_[k]));
   return number_[k] + (number_[k + 1] - number_[k]) * part;
 }
 

@@ -6,14 +6,14 @@
 
 namespace pigment {
 
-// Between its cut-offs a law is held as weight on a fine logarithmic grid of diameters, spread evenly over ln d within
-// each cell; tables are taken at their own points, which makes them straight lines over ln d. Number follows from
-// weight by dN = dW / (density pi/6 d^3), cell by cell in closed form. The normal and log-normal laws have cut-offs; a
-// table ends with its rows, or at cut-offs inside them.
+// Between its cut-offs a law is held as weight on a fine logarithmic grid of diameters, spread evenly over ln
+// d within each cell; tables are taken at their own points, which makes them straight lines over ln d. Number
+// follows from weight by dN = dW / (density pi/6 d^3), cell by cell in closed form. The normal and log-normal
+// laws have cut-offs; a table ends with its rows, or at cut-offs inside them.
 class SizeDistribution {
  public:
-  // Throws FileError for a table that cannot be used (with its line) and InputError for a law without weight between
-  // its cut-offs.
+  // Throws FileError for a table that cannot be used (with its line) and InputError for a law without weight
+  // between its cut-offs.
   explicit SizeDistribution(const SizeLaw&);
 
   bool monodisperse() const { return diameter_.size() == 1; }
@@ -29,9 +29,9 @@ class SizeDistribution {
  private:
   void integrate(const std::vector<double>& weight_in_cell);
 
-  std::vector<double> diameter_;       // grid points, rising; one: monodisperse
-  std::vector<double> weight_;         // cumulative at the grid points, 0..1
-  std::vector<double> number_;         // likewise
+  std::vector<double> diameter_;  // grid points, rising; one: monodisperse
+  std::vector<double> weight_;    // cumulative at the grid points, 0..1
+  std::vector<double> number_;    // likewise
   double mean_volume_ = 0;
 };
 

@@ -28,8 +28,8 @@ bool NeighbourList::is_spent(const Vec3Array& position) const {
   return false;
 }
 
-NeighbourList make_neighbour_list(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
-                                  const PairRange& range) {
+NeighbourList make_neighbour_list(const Cell& cell, const Vec3Array& position,
+                                  const std::vector<double>& radius, const PairRange& range) {
   NeighbourList list;
   list.range = range;
   list.reference = position;
@@ -45,7 +45,8 @@ NeighbourList make_neighbour_list(const Cell& cell, const Vec3Array& position, c
   std::vector<std::uint64_t> code(n);
   for (std::size_t k = 0; k < n; ++k) {
     const Vec3 p = cell.wrap(position[k]);
-    code[k] = spread(static_cast<std::uint64_t>(p.x() / edge)) | spread(static_cast<std::uint64_t>(p.y() / edge)) << 1 |
+    code[k] = spread(static_cast<std::uint64_t>(p.x() / edge)) |
+              spread(static_cast<std::uint64_t>(p.y() / edge)) << 1 |
               spread(static_cast<std::uint64_t>((p.z() - lowest) / edge)) << 2;
   }
   list.order.resize(n);

@@ -1,7 +1,8 @@
 #pragma once
-// Pairs within range plus a skin, and the spatial order in which the engine keeps its particles: neighbours in space are
-// neighbours in memory. Valid until a gap could have shrunk by the skin; made from reference positions alone, so that a
-// resumed run that starts from the same reference positions has the same list in the same order.
+// Pairs within range plus a skin, and the spatial order in which the engine keeps its particles: neighbours
+// in space are neighbours in memory. Valid until a gap could have shrunk by the skin; made from reference
+// positions alone, so that a resumed run that starts from the same reference positions has the same list in
+// the same order.
 #include <cstdint>
 #include <vector>
 
@@ -12,14 +13,15 @@ namespace pigment::neighbours {
 
 struct NeighbourList {
   PairRange range;
-  Vec3Array reference;               // positions when the list was made, in file order
-  std::vector<std::int32_t> order;   // engine index -> file index
-  std::vector<IndexPair> pairs;      // engine indices, i < j, sorted by i then j
+  Vec3Array reference;              // positions when the list was made, in file order
+  std::vector<std::int32_t> order;  // engine index -> file index
+  std::vector<IndexPair> pairs;     // engine indices, i < j, sorted by i then j
 
   // Whether any two particles could have come closer by more than the skin since the list was made.
   bool is_spent(const Vec3Array& position) const;
 };
 
-NeighbourList make_neighbour_list(const Cell&, const Vec3Array& position, const std::vector<double>& radius, const PairRange&);
+NeighbourList make_neighbour_list(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
+                                  const PairRange&);
 
 }  // namespace pigment::neighbours

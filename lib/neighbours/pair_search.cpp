@@ -18,8 +18,8 @@ struct Span {
   std::int64_t first = 0, count = 0;
 };
 
-// The particles of one size class in a grid of cells about as wide as a search among them reaches. Positions are wrapped
-// in x and y, and sorted by cell.
+// The particles of one size class in a grid of cells about as wide as a search among them reaches. Positions
+// are wrapped in x and y, and sorted by cell.
 class LevelGrid {
  public:
   double largest_radius = 0;
@@ -50,7 +50,8 @@ class LevelGrid {
   // Calls visit(j) for every member whose centre is within `reach` of p in each direction, and some others.
   template <typename Visit>
   void near(const Vec3& p, double reach, Visit&& visit) const {
-    const Span x = periodic_span(p.x(), reach, 0), y = periodic_span(p.y(), reach, 1), z = open_span(p.z(), reach);
+    const Span x = periodic_span(p.x(), reach, 0), y = periodic_span(p.y(), reach, 1),
+               z = open_span(p.z(), reach);
     for (std::int64_t dx = 0; dx < x.count; ++dx) {
       const std::int64_t cx = (x.first + dx) % count_[0];
       for (std::int64_t dy = 0; dy < y.count; ++dy) {
@@ -70,10 +71,12 @@ class LevelGrid {
   }
   Span periodic_span(double coordinate, double reach, int axis) const {
     const double n = static_cast<double>(count_[axis]);
-    const double low = std::floor((coordinate - reach) / edge_[axis]), high = std::floor((coordinate + reach) / edge_[axis]);
+    const double low = std::floor((coordinate - reach) / edge_[axis]),
+                 high = std::floor((coordinate + reach) / edge_[axis]);
     // All the way round: every cell once, so that no pair is met twice.
     if (high - low + 1 >= n) return {0, count_[axis]};
-    return {static_cast<std::int64_t>(low - n * std::floor(low / n)), static_cast<std::int64_t>(high - low + 1)};
+    return {static_cast<std::int64_t>(low - n * std::floor(low / n)),
+            static_cast<std::int64_t>(high - low + 1)};
   }
   Span open_span(double z, double reach) const {
     const std::int64_t low = along(z - reach - bottom_, 2), high = along(z + reach - bottom_, 2);
@@ -103,8 +106,9 @@ class LevelGrid {
 // Size class of a radius: class k holds radii from 2^k to 2^(k+1) times the smallest.
 int size_class(double radius, double smallest) { return std::max(0, std::ilogb(radius / smallest)); }
 
-std::vector<LevelGrid> sort_into_levels(const Cell& cell, const Vec3Array& wrapped, const std::vector<double>& radius,
-                                        const PairRange& range, std::vector<int>& level_of) {
+std::vector<LevelGrid> sort_into_levels(const Cell& cell, const Vec3Array& wrapped,
+                                        const std::vector<double>& radius, const PairRange& range,
+                                        std::vector<int>& level_of) {
   const double smallest = *std::min_element(radius.begin(), radius.end());
   std::vector<std::vector<std::int32_t>> members;
   level_of.resize(radius.size());
@@ -129,7 +133,8 @@ std::vector<LevelGrid> sort_into_levels(const Cell& cell, const Vec3Array& wrapp
 }
 
 // Sorted by i, then j, whatever order the threads found them in.
-std::vector<IndexPair> sort_pairs(const std::vector<std::vector<IndexPair>>& found, std::size_t particle_count) {
+std::vector<IndexPair> sort_pairs(const std::vector<std::vector<IndexPair>>& found,
+                                  std::size_t particle_count) {
   std::vector<std::int64_t> begin(particle_count + 1, 0);
   for (const auto& part : found)
     for (const IndexPair& p : part) ++begin[p.i + 1];
@@ -147,8 +152,8 @@ std::vector<IndexPair> sort_pairs(const std::vector<std::vector<IndexPair>>& fou
 
 }  // namespace
 
-std::vector<IndexPair> find_pairs(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
-                                  const PairRange& range) {
+std::vector<IndexPair> find_pairs(const Cell& cell, const Vec3Array& position,
+                                  const std::vector<double>& radius, const PairRange& range) {
   assert(position.size() == radius.size());
   const std::size_t n = position.size();
   if (n < 2) return {};
@@ -161,13 +166,14 @@ std::vector<IndexPair> find_pairs(const Cell& cell, const Vec3Array& position, c
     farthest = std::max(farthest, position[i].cwiseAbs().maxCoeff());
   }
   // Wrapping rounds; searches reach that much farther, while the decision below sees the positions as given.
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * (farthest + cell.width_x + cell.width_y);
+  const double rounding =
+      16 * std::numeric_limits<double>::epsilon() * (farthest + cell.width_x + cell.width_y);
 
   std::vector<int> level_of;
   const std::vector<LevelGrid> levels = sort_into_levels(cell, wrapped, radius, range, level_of);
 
-  // Each particle looks for partners of its own size class (with a larger index) and of all coarser classes: a pair is
-  // found from its smaller member, which bounds the reach, and once.
+  // Each particle looks for partners of its own size class (with a larger index) and of all coarser classes:
+  // a pair is found from its smaller member, which bounds the reach, and once.
   constexpr std::int64_t chunk = 256;
   const std::int64_t chunks = (static_cast<std::int64_t>(n) + chunk - 1) / chunk;
   std::vector<std::vector<IndexPair>> found(static_cast<std::size_t>(chunks));
@@ -178,8 +184,8 @@ std::vector<IndexPair> find_pairs(const Cell& cell, const Vec3Array& position, c
       const auto i = static_cast<std::int32_t>(k);
       for (std::size_t level = level_of[i]; level < levels.size(); ++level) {
         const bool own_level = level == static_cast<std::size_t>(level_of[i]);
-        // In its own class the partner may be the smaller one: the limit grows with the smaller radius, so the class's
-        // largest radius bounds it.
+        // In its own class the partner may be the smaller one: the limit grows with the smaller radius, so
+        // the class's largest radius bounds it.
         const double largest = levels[level].largest_radius;
         const double reach = radius[i] + largest + range.limit(radius[i], largest) + rounding;
         levels[level].near(wrapped[i], reach, [&](std::int32_t j) {

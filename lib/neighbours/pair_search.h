@@ -1,5 +1,6 @@
 #pragma once
-// Which pairs of spheres are near each other: a half list, found with one grid a size class, O(N) for any size ratio.
+// Which pairs of spheres are near each other: a half list, found with one grid a size class, O(N) for any
+// size ratio.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -25,10 +26,10 @@ struct IndexPair {
   bool operator==(const IndexPair&) const = default;
 };
 
-// All pairs in range, sorted by i, then j; the same list at any thread count. x and y are periodic and may be unwrapped
-// by any number of periods, z is open. A pair is listed once, by its nearest image (Cell::minimum_image): its next
-// image is never nearer than half a period, and is left out even where the range would reach it.
-// Throws NumericsError for a position that is not finite.
+// All pairs in range, sorted by i, then j; the same list at any thread count. x and y are periodic and may be
+// unwrapped by any number of periods, z is open. A pair is listed once, by its nearest image
+// (Cell::minimum_image): its next image is never nearer than half a period, and is left out even where the
+// range would reach it. Throws NumericsError for a position that is not finite.
 std::vector<IndexPair> find_pairs(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
                                   const PairRange&);
 

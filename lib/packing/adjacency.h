@@ -8,7 +8,7 @@
 namespace pigment::packing {
 
 struct Adjacency {
-  std::vector<std::size_t> begin;    // of each sphere's neighbours in `other`, rising index
+  std::vector<std::size_t> begin;  // of each sphere's neighbours in `other`, rising index
   std::vector<std::int32_t> other;
 
   // Neighbours: gap below `skin`.

@@ -31,8 +31,8 @@ Equilibration equilibrate(const Slab& slab, const std::vector<double>& radius, V
   if (radius.empty() || sweeps <= 0) return result;
   const Cell cell = slab.cell();
   const double smallest = *std::min_element(radius.begin(), radius.end());
-  // Wide enough for several moves between two searches; the cell (two largest diameters wide) bounds it too, since a
-  // neighbour is known by its nearest image only.
+  // Wide enough for several moves between two searches; the cell (two largest diameters wide) bounds it too,
+  // since a neighbour is known by its nearest image only.
   const double skin = 0.8 * smallest;
 
   std::vector<int> size_class(radius.size());
@@ -73,7 +73,8 @@ Equilibration equilibrate(const Slab& slab, const std::vector<double>& radius, V
     if (on_progress) on_progress(static_cast<double>(sweep + 1) / sweeps);
   }
   for (Vec3& c : centre) c = cell.wrap(c);
-  result.acceptance = static_cast<double>(all_accepted) / (static_cast<double>(sweeps) * static_cast<double>(radius.size()));
+  result.acceptance =
+      static_cast<double>(all_accepted) / (static_cast<double>(sweeps) * static_cast<double>(radius.size()));
   return result;
 }
 

@@ -15,11 +15,11 @@
 namespace pigment::packing {
 namespace {
 
-// Densest packing of equal spheres, pi/sqrt(18). Spheres of several sizes can be stacked denser, by hand; at random
-// they jam before they get there.
+// Densest packing of equal spheres, pi/sqrt(18). Spheres of several sizes can be stacked denser, by hand; at
+// random they jam before they get there.
 constexpr double densest = 0.7405;
-// Gaps are packed wider by this, um, so that rounding and the way through SI units in a file never take the minimum
-// gap away. A millionth of a nanometre.
+// Gaps are packed wider by this, um, so that rounding and the way through SI units in a file never take the
+// minimum gap away. A millionth of a nanometre.
 constexpr double guard = 1e-9;
 
 std::string solids_text(const LayerParameters& layer, double volume_fraction) {
@@ -40,22 +40,26 @@ std::vector<SizeDistribution> distributions_of(const std::vector<Species>& speci
 }
 
 // What no arrangement of particles could give, before anything is computed.
-void refuse_impossible(const Recipe& recipe, const LayerTarget& target, const std::vector<SizeDistribution>& sizes) {
+void refuse_impossible(const Recipe& recipe, const LayerTarget& target,
+                       const std::vector<SizeDistribution>& sizes) {
   if (recipe.species.empty()) throw InputError("particles: no species is given, so there is nothing to pack");
   const double gap = recipe.packing.minimum_gap;
-  if (const auto why = too_dense(recipe.layer, target.volume_fraction)) throw Impossible("layer", "solids", *why);
+  if (const auto why = too_dense(recipe.layer, target.volume_fraction))
+    throw Impossible("layer", "solids", *why);
   double largest = 0;
   for (const SizeDistribution& s : sizes) largest = std::max(largest, s.largest());
   if (recipe.layer.width < 2 * largest)
-    throw Impossible("layer", "width", fmt::format(
-        "{:.6g} um is less than two largest diameters ({:.6g} um), so that particles would meet their own "
-        "images; widen the layer or lower the size law's max",
-        recipe.layer.width, 2 * largest));
+    throw Impossible("layer", "width",
+                     fmt::format("{:.6g} um is less than two largest diameters ({:.6g} um), so that "
+                                 "particles would meet their own "
+                                 "images; widen the layer or lower the size law's max",
+                                 recipe.layer.width, 2 * largest));
   if (target.thickness < largest + 2 * gap)
-    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight", fmt::format(
-        "a wet layer of {:.6g} um is thinner than the largest particle ({:.6g} um) with the minimum gap ({:.4g} um) on "
-        "either side",
-        target.thickness, largest, gap));
+    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight",
+                     fmt::format("a wet layer of {:.6g} um is thinner than the largest particle ({:.6g} um) "
+                                 "with the minimum gap ({:.4g} um) on "
+                                 "either side",
+                                 target.thickness, largest, gap));
 }
 
 // The box that holds these particles at exactly the solids asked for.
@@ -63,10 +67,12 @@ Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& p
   const double solids = solids_volume(particles.radius);
   double mass = 0;
   for (const double m : particles.mass) mass += m;
-  const double volume = recipe.layer.solids_by_weight
-                            ? solids + mass * (1 - recipe.layer.solids) / (recipe.layer.solids * recipe.liquid_density)
-                            : solids / recipe.layer.solids;
-  // A mixture's sample may differ a little from the recipe's proportions: the coat weight, where it is given, is met too.
+  const double volume =
+      recipe.layer.solids_by_weight
+          ? solids + mass * (1 - recipe.layer.solids) / (recipe.layer.solids * recipe.liquid_density)
+          : solids / recipe.layer.solids;
+  // A mixture's sample may differ a little from the recipe's proportions: the coat weight, where it is given,
+  // is met too.
   const double height = recipe.layer.thickness ? target.thickness : volume * *recipe.layer.coat_weight / mass;
   const double width = std::sqrt(volume / height);
   return {width, width, height};
@@ -75,22 +81,26 @@ Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& p
 void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const std::vector<double>& radius) {
   const double gap = recipe.packing.minimum_gap, largest = 2 * radius.front();
   if (cell.width_x < 2 * (largest + gap))
-    throw Impossible("layer", "width", fmt::format(
-        "the {} particles of this layer need a width of {:.6g} um to meet the solids, which is less than two "
-        "largest diameters ({:.6g} um) with their gaps; widen the layer",
-        radius.size(), cell.width_x, 2 * largest));
+    throw Impossible("layer", "width",
+                     fmt::format("the {} particles of this layer need a width of {:.6g} um to meet the "
+                                 "solids, which is less than two "
+                                 "largest diameters ({:.6g} um) with their gaps; widen the layer",
+                                 radius.size(), cell.width_x, 2 * largest));
   if (cell.height < largest + 2 * gap)
-    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight", fmt::format(
-        "the layer of {:.6g} um is thinner than its largest particle ({:.6g} um) with the minimum gap on either side",
-        cell.height, largest));
+    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight",
+                     fmt::format("the layer of {:.6g} um is thinner than its largest particle ({:.6g} um) "
+                                 "with the minimum gap on either side",
+                                 cell.height, largest));
   double filled = 0;
   for (const double a : radius) filled += Particles::sphere_volume(a + gap / 2);
   filled /= cell.area() * (cell.height - gap);
   if (filled > densest)
-    throw Impossible("packing", "minimum_gap", fmt::format(
-        "with half of the minimum gap of {:.4g} um around each, the particles fill {:.1f} % of the "
-        "layer, more than any random packing does; lower the gap or the solids",
-        gap, 100 * filled));
+    throw Impossible(
+        "packing", "minimum_gap",
+        fmt::format(
+            "with half of the minimum gap of {:.4g} um around each, the particles fill {:.1f} % of the "
+            "layer, more than any random packing does; lower the gap or the solids",
+            gap, 100 * filled));
 }
 
 }  // namespace
@@ -98,7 +108,8 @@ void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const 
 std::optional<std::string> too_dense(const LayerParameters& layer, double volume_fraction) {
   if (!(volume_fraction > densest)) return std::nullopt;
   return fmt::format(
-      "{} cannot be packed: equal spheres fill 74 % of space at the densest, and random packings of mixed sizes jam at "
+      "{} cannot be packed: equal spheres fill 74 % of space at the densest, and random packings of mixed "
+      "sizes jam at "
       "about 64 to 73 %; coating colours go to about 78 wt%",
       solids_text(layer, volume_fraction));
 }
@@ -111,8 +122,9 @@ Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
 
   const double asked_area = recipe.layer.width * recipe.layer.width;
   Layer& layer = packing.layer;
-  layer.particles = sample_particles(recipe.species, packing.sizes,
-                                     packing.target.volume_fraction * packing.target.thickness * asked_area, recipe.seed);
+  layer.particles =
+      sample_particles(recipe.species, packing.sizes,
+                       packing.target.volume_fraction * packing.target.thickness * asked_area, recipe.seed);
   layer.cell = box_for(recipe, packing.target, layer.particles);
   packing.width_scale = layer.cell.width_x / recipe.layer.width;
   refuse_what_the_sample_shows(recipe, layer.cell, layer.particles.radius);
@@ -131,21 +143,28 @@ Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
   layer.position = std::move(insertion.centre);
   packing.inserted_overlapping = insertion.overlapping;
   if (insertion.overlapping > 0) {
-    // Progress in decades: from overlaps as deep as the largest radius to a millionth of it.
+    // Progress in decades: from overlaps as deep as the largest radius to a millionth of it; an overlap may
+    // deepen in passing.
     const double deepest = kept_apart.front();
+    double farthest = 0;
     const Relaxation relaxation = relax_overlaps(slab, kept_apart, layer.position, [&](double overlap) {
-      if (on_progress) on_progress("removing overlaps", std::clamp(std::log10(deepest / overlap) / 6, 0.0, 1.0));
+      farthest = std::clamp(std::log10(deepest / overlap) / 6, farthest, 1.0);
+      if (on_progress) on_progress("removing overlaps", farthest);
     });
     packing.relaxation_steps = relaxation.steps;
     if (!relaxation.done)
-      throw Impossible("layer", "solids", fmt::format(
-          "no packing without overlaps was found at {} with a minimum gap of {:.4g} um: after {} steps the "
-          "deepest overlap is still {:.3g} nm; lower the solids or packing.minimum_gap, or take a wider size law",
-          solids_text(recipe.layer, packing.target.volume_fraction), recipe.packing.minimum_gap, relaxation.steps,
-          1e3 * relaxation.largest_overlap));
+      throw Impossible(
+          "layer", "solids",
+          fmt::format("no packing without overlaps was found at {} with a minimum gap of {:.4g} um: after {} "
+                      "steps the "
+                      "deepest overlap is still {:.3g} nm; lower the solids or packing.minimum_gap, or take "
+                      "a wider size law",
+                      solids_text(recipe.layer, packing.target.volume_fraction), recipe.packing.minimum_gap,
+                      relaxation.steps, 1e3 * relaxation.largest_overlap));
   }
-  packing.acceptance = equilibrate(slab, kept_apart, layer.position, recipe.packing.equilibration_sweeps, recipe.seed,
-                                   report("equilibrating")).acceptance;
+  packing.acceptance = equilibrate(slab, kept_apart, layer.position, recipe.packing.equilibration_sweeps,
+                                   recipe.seed, report("equilibrating"))
+                           .acceptance;
   return packing;
 }
 

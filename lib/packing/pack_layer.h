@@ -27,7 +27,7 @@ struct Packing {
   Layer layer;                          // largest particle first; x and y inside the period
   std::vector<SizeDistribution> sizes;  // one a species
   LayerTarget target;
-  double width_scale = 1;             // width of the layer over the width asked for
+  double width_scale = 1;                // width of the layer over the width asked for
   std::size_t inserted_overlapping = 0;  // particles that random insertion found no free place for
   int relaxation_steps = 0;              // that removing the overlaps took
   double acceptance = 0;                 // of the Monte-Carlo moves
@@ -39,9 +39,9 @@ std::optional<std::string> too_dense(const LayerParameters&, double volume_fract
 // fraction (0..1) of the stage that is named.
 using OnProgress = std::function<void(const std::string& stage, double fraction)>;
 
-// Samples the particles, scales the width (never the radii) so that the solids are met to rounding, places the
-// particles at random, largest first, removes overlaps where that stalls, and equilibrates if asked to. Every gap,
-// between particles, to the substrate z = 0 and to the surface, is at least packing.minimum_gap.
+// Samples the particles, scales the width (never the radii) so that the solids are met to rounding, places
+// the particles at random, largest first, removes overlaps where that stalls, and equilibrates if asked to.
+// Every gap, between particles, to the substrate z = 0 and to the surface, is at least packing.minimum_gap.
 // The same layer for the same recipe, whatever the thread count.
 // Throws Impossible for what cannot be packed, and what SizeDistribution throws.
 Packing pack_layer(const Recipe&, const OnProgress& = {});

@@ -10,7 +10,8 @@
 namespace pigment::packing {
 namespace {
 
-// Spheres of one size class (a factor of two in radius), in cells no narrower than the class's largest diameter.
+// Spheres of one size class (a factor of two in radius), in cells no narrower than the class's largest
+// diameter.
 class ClassGrid {
  public:
   ClassGrid(const Slab& slab, double largest_radius, std::size_t members)
@@ -24,7 +25,8 @@ class ClassGrid {
   }
 
   void insert(const Vec3& centre, double radius) {
-    const auto index = (static_cast<std::size_t>(along(centre.x())) * across_ + along(centre.y())) * up_ + level(centre.z());
+    const auto index =
+        (static_cast<std::size_t>(along(centre.x())) * across_ + along(centre.y())) * up_ + level(centre.z());
     cells_[index].push_back({centre, radius});
   }
 
@@ -37,7 +39,8 @@ class ClassGrid {
     for (int dx = 0; dx < nx; ++dx)
       for (int dy = 0; dy < ny; ++dy)
         for (int z = z0; z <= z1; ++z) {
-          const std::size_t column = static_cast<std::size_t>((x0 + dx) % across_) * across_ + (y0 + dy) % across_;
+          const std::size_t column =
+              static_cast<std::size_t>((x0 + dx) % across_) * across_ + (y0 + dy) % across_;
           for (const Sphere& s : cells_[column * up_ + z]) {
             const double contact = radius + s.radius;
             const double distance2 = cell.minimum_image(s.centre - centre).squaredNorm();
@@ -54,7 +57,9 @@ class ClassGrid {
     Vec3 centre;
     double radius;
   };
-  int along(double x) const { return std::clamp(static_cast<int>(x / slab_.width * across_), 0, across_ - 1); }
+  int along(double x) const {
+    return std::clamp(static_cast<int>(x / slab_.width * across_), 0, across_ - 1);
+  }
   int level(double z) const {
     const double c = std::floor((z - slab_.bottom) / (slab_.top - slab_.bottom) * up_);
     return static_cast<int>(std::clamp(c, 0.0, up_ - 1.0));
@@ -74,15 +79,17 @@ class ClassGrid {
   std::vector<std::vector<Sphere>> cells_;
 };
 
-int class_of(double radius, double largest) { return static_cast<int>(std::floor(std::log2(largest / radius))); }
+int class_of(double radius, double largest) {
+  return static_cast<int>(std::floor(std::log2(largest / radius)));
+}
 
 }  // namespace
 
 Insertion insert_largest_first(const Slab& slab, const std::vector<double>& radius, std::uint64_t seed,
                                const std::function<void(double)>& on_progress) {
   assert(std::is_sorted(radius.rbegin(), radius.rend()));
-  // A place is sought this often. Once many spheres have found none, random insertion has stalled: the rest look a few
-  // times only and leave it to the removal of overlaps.
+  // A place is sought this often. Once many spheres have found none, random insertion has stalled: the rest
+  // look a few times only and leave it to the removal of overlaps.
   constexpr int attempts = 4000, attempts_when_stalled = 40;
   constexpr std::size_t stalled_after = 20;
 

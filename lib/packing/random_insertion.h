@@ -1,5 +1,6 @@
 #pragma once
-// Random sequential insertion, largest first: each sphere goes to the first random place where it overlaps none before.
+// Random sequential insertion, largest first: each sphere goes to the first random place where it overlaps
+// none before.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,7 +13,8 @@ namespace pigment::packing {
 
 struct Insertion {
   Vec3Array centre;
-  std::size_t overlapping = 0;  // spheres that found no free place and stand at the least overlapping one that was tried
+  std::size_t overlapping =
+      0;  // spheres that found no free place and stand at the least overlapping one that was tried
 };
 
 // radius: um, falling. Every sphere must fit between the planes.

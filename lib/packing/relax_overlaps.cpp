@@ -19,13 +19,21 @@ constexpr int stall_check = 300;
 class Minimisation {
  public:
   Minimisation(const Slab& slab, const std::vector<double>& radius, double margin, Vec3Array& centre)
-      : slab_(slab), cell_(slab.cell()), radius_(radius), enlarged_(radius), mass_(radius.size()), centre_(centre),
-        velocity_(radius.size(), Vec3::Zero()), force_(radius.size(), Vec3::Zero()), overlap_(radius.size(), 0.0),
+      : slab_(slab),
+        cell_(slab.cell()),
+        radius_(radius),
+        enlarged_(radius),
+        mass_(radius.size()),
+        centre_(centre),
+        velocity_(radius.size(), Vec3::Zero()),
+        force_(radius.size(), Vec3::Zero()),
+        overlap_(radius.size(), 0.0),
         energy_(radius.size(), 0.0) {
     const double smallest = *std::min_element(radius.begin(), radius.end());
     for (std::size_t i = 0; i < radius.size(); ++i) {
       enlarged_[i] *= 1 + margin;
-      // The number of contacts grows like the surface, and the mass with it: one time step then suits all sizes.
+      // The number of contacts grows like the surface, and the mass with it: one time step then suits all
+      // sizes.
       mass_[i] = (radius[i] / smallest) * (radius[i] / smallest);
     }
     skin_ = 0.4 * smallest;
@@ -33,8 +41,8 @@ class Minimisation {
 
   // True when no overlap of the true radii is left.
   bool run(int most_steps, Relaxation& result, const std::function<void(double)>& on_progress) {
-    // Unit spring stiffness and a unit mass for the smallest sphere: a dozen contacts give a highest frequency near 5,
-    // which a step of 0.25 resolves.
+    // Unit spring stiffness and a unit mass for the smallest sphere: a dozen contacts give a highest
+    // frequency near 5, which a step of 0.25 resolves.
     constexpr double first_step = 0.1, longest_step = 0.25;
     double step = first_step, mixing = 0.1;
     int steps_downhill = 0;

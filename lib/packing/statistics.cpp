@@ -62,8 +62,10 @@ std::vector<SizeAgreement> compare_sizes(const Layer& layer, const std::vector<S
   for (std::size_t s = 0; s < sizes.size(); ++s) {
     std::vector<double> diameter;
     for (std::size_t i = 0; i < layer.particles.size(); ++i)
-      if (layer.particles.species[i] == static_cast<int>(s)) diameter.push_back(2 * layer.particles.radius[i]);
-    result.push_back({diameter.size(), compare_numbers(diameter, sizes[s]), compare_weights(diameter, sizes[s])});
+      if (layer.particles.species[i] == static_cast<int>(s))
+        diameter.push_back(2 * layer.particles.radius[i]);
+    result.push_back(
+        {diameter.size(), compare_numbers(diameter, sizes[s]), compare_weights(diameter, sizes[s])});
   }
   return result;
 }
@@ -109,9 +111,9 @@ SmallestGaps smallest_gaps(const Layer& layer) {
   const double farthest = layer.cell.width_x + layer.cell.width_y + layer.cell.height;
   for (double reach = 0.1 * *std::max_element(radius.begin(), radius.end());; reach *= 4) {
     for (const auto& p : neighbours::find_pairs(layer.cell, layer.position, radius, {0, 0, reach}))
-      gaps.particles = std::min(
-          gaps.particles,
-          layer.cell.minimum_image(layer.position[p.j] - layer.position[p.i]).norm() - radius[p.i] - radius[p.j]);
+      gaps.particles = std::min(gaps.particles,
+                                layer.cell.minimum_image(layer.position[p.j] - layer.position[p.i]).norm() -
+                                    radius[p.i] - radius[p.j]);
     if (std::isfinite(gaps.particles) || reach > farthest) return gaps;
   }
 }

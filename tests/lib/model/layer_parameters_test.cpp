@@ -70,12 +70,16 @@ TEST(LayerParameters, ReadsBothWaysOfWritingEach) {
 
 TEST(LayerParameters, RefusesWithTheKey) {
   EXPECT_NE(refusal("{solids: 65 wt%, width: 5 um}").find("layer.thickness"), std::string::npos);
-  EXPECT_NE(refusal("{thickness: 1 um, coat_weight: 26 g/m2, solids: 65 wt%, width: 5 um}").find("layer.coat_weight"),
+  EXPECT_NE(refusal("{thickness: 1 um, coat_weight: 26 g/m2, solids: 65 wt%, width: 5 um}")
+                .find("layer.coat_weight"),
             std::string::npos);
   EXPECT_NE(refusal("{thickness: 1 um, width: 5 um}").find("layer.solids"), std::string::npos);
-  EXPECT_NE(refusal("{thickness: 1 um, solids: 65, width: 5 um}").find("layer.solids: \"65\""), std::string::npos);
-  EXPECT_NE(refusal("{thickness: 1 um, solids: 100 wt%, width: 5 um}").find("layer.solids"), std::string::npos);
-  EXPECT_NE(refusal("{thickness: 1 um, solids: 0 vol%, width: 5 um}").find("layer.solids"), std::string::npos);
+  EXPECT_NE(refusal("{thickness: 1 um, solids: 65, width: 5 um}").find("layer.solids: \"65\""),
+            std::string::npos);
+  EXPECT_NE(refusal("{thickness: 1 um, solids: 100 wt%, width: 5 um}").find("layer.solids"),
+            std::string::npos);
+  EXPECT_NE(refusal("{thickness: 1 um, solids: 0 vol%, width: 5 um}").find("layer.solids"),
+            std::string::npos);
   EXPECT_NE(refusal("{thickness: 1 um, solids: 65 wt%, width: 0 um}").find("layer.width"), std::string::npos);
 }
 

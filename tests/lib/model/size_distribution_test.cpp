@@ -19,7 +19,8 @@ SizeLaw lognormal(double median, double geometric_standard_deviation, double min
   return law;
 }
 
-// Log-normal by weight with mean 1.5 um and standard deviation 10 um, cut to 0.25..2 um: the drying study's law.
+// Log-normal by weight with mean 1.5 um and standard deviation 10 um, cut to 0.25..2 um: the drying study's
+// law.
 SizeLaw fine_carbonate() {
   const double growth = 1 + (10 / 1.5) * (10 / 1.5);
   return lognormal(1.5 / std::sqrt(growth), std::exp(std::sqrt(std::log(growth))), 0.25, 2);
@@ -49,7 +50,8 @@ TEST(SizeDistribution, GivesTheDryingStudysShares) {
   // Known to three digits: 43.6 % by number below 300 nm, 73.9 % by weight below 1 um.
   EXPECT_NEAR(sizes.number_below(0.3), 0.436, 5e-4);
   EXPECT_NEAR(sizes.weight_below(1), 0.739, 5e-4);
-  // 65 wt% of 2700 kg/m3 in water in 5 x 5 um x 10, 20, 30 um: 2,360, 4,710 and 7,070 particles, to three digits.
+  // 65 wt% of 2700 kg/m3 in water in 5 x 5 um x 10, 20, 30 um: 2,360, 4,710 and 7,070 particles, to three
+  // digits.
   const double solids = 0.65 / 2.7 / (0.65 / 2.7 + 0.35);
   for (const auto& [height, count] : {std::pair{10.0, 2360.0}, {20.0, 4710.0}, {30.0, 7070.0}})
     EXPECT_NEAR(25 * height * solids / sizes.mean_volume(), count, 5);
@@ -160,6 +162,8 @@ TEST_F(TabulatedSizes, NameTheLineThatCannotBe) {
   EXPECT_NE(refusal(header + "0.2,0\n0.2,10\n").find(".csv:3: diameter does not rise"), std::string::npos);
   EXPECT_NE(refusal(header + "0.2,10\n0.4,5\n").find(".csv:3: finer falls"), std::string::npos);
   EXPECT_NE(refusal(header + "0,0\n0.4,5\n").find(".csv:2: diameter is not above zero"), std::string::npos);
+  EXPECT_NE(refusal(header + "1e-200,0\n0.4,5\n").find(".csv:2: diameter 1e-200 um is not within"),
+            std::string::npos);
   EXPECT_NE(refusal(header + "0.2,0\n0.4,105\n").find(".csv:3: finer is not within"), std::string::npos);
   EXPECT_NE(refusal(header + "0.2,50\n0.4,50\n").find("does not rise"), std::string::npos);
   EXPECT_NE(refusal(header + "0.2,50\n").find("does not rise"), std::string::npos);

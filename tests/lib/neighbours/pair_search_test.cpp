@@ -21,7 +21,8 @@ struct Spheres {
 };
 
 // Radii log-uniform over the ratio; centres anywhere in a box, unwrapped by up to `periods` periods.
-Spheres random_spheres(std::uint64_t variant, int count, Cell cell, double largest, double ratio, int periods) {
+Spheres random_spheres(std::uint64_t variant, int count, Cell cell, double largest, double ratio,
+                       int periods) {
   Spheres s{cell, {}, {}};
   for (int i = 0; i < count; ++i) {
     const auto u = random_uniforms(key, variant, i, 0), v = random_uniforms(key, variant, i, 1);
@@ -58,7 +59,8 @@ TEST(PairSearch, AgreesWithBruteForceForAnySizeRatio) {
         const Spheres s = random_spheres(++variant, 700, {5, 4, 9}, 1.0, ratio, periods);
         const auto expected = brute_force(s, range);
         ASSERT_GT(expected.size(), 100u);
-        EXPECT_EQ(find_pairs(s.cell, s.position, s.radius, range), expected) << "ratio " << ratio << " periods " << periods;
+        EXPECT_EQ(find_pairs(s.cell, s.position, s.radius, range), expected)
+            << "ratio " << ratio << " periods " << periods;
       }
 }
 
@@ -72,7 +74,8 @@ TEST(PairSearch, ListsEachPairOnceInCellsTwoDiametersWide) {
 }
 
 TEST(PairSearch, FindsASmallSphereBesideAWallOfLargeOnes) {
-  // A ratio of 100 with the pair across the periodic boundary and at a gap just inside, then just outside, the limit.
+  // A ratio of 100 with the pair across the periodic boundary and at a gap just inside, then just outside,
+  // the limit.
   const Cell cell{10, 10, 10};
   const std::vector<double> radius{1.0, 0.01};
   const double limit = 0.004;

@@ -39,7 +39,8 @@ double smallest_gap_by_brute_force(const Layer& layer) {
   double smallest = 1e9;
   const auto& a = layer.particles.radius;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    smallest = std::min({smallest, layer.position[i].z() - a[i], layer.cell.height - layer.position[i].z() - a[i]});
+    smallest =
+        std::min({smallest, layer.position[i].z() - a[i], layer.cell.height - layer.position[i].z() - a[i]});
     for (std::size_t j = i + 1; j < a.size(); ++j)
       for (int p = -1; p <= 1; ++p)
         for (int q = -1; q <= 1; ++q) {
@@ -66,7 +67,8 @@ void expect_valid(const Recipe& r, const Packing& packing) {
     EXPECT_NEAR(solids.coat_weight / *r.layer.coat_weight, 1, 1e-13);
   }
   // Radii are the sampled ones to the bit: nothing was grown or shrunk to fit.
-  const double volume = packing.target.volume_fraction * packing.target.thickness * r.layer.width * r.layer.width;
+  const double volume =
+      packing.target.volume_fraction * packing.target.thickness * r.layer.width * r.layer.width;
   EXPECT_EQ(layer.particles.radius, sample_particles(r.species, packing.sizes, volume, r.seed).radius);
 }
 
@@ -139,9 +141,9 @@ TEST(PackLayer, DiffersFromSeedToSeed) {
 }
 
 TEST(PackLayer, FillsTheLayerEvenlyAcross) {
-  // Random insertion knows no direction in x and y: chi-squared of centre counts in 4 x 4 columns, 15 degrees of
-  // freedom (the columns must hold 16 counts with a fixed sum), against its 99.9 % point 37.7. Excluded volume makes the
-  // counts vary less than independent ones, so false alarms are rarer than 0.1 %.
+  // Random insertion knows no direction in x and y: chi-squared of centre counts in 4 x 4 columns, 15 degrees
+  // of freedom (the columns must hold 16 counts with a fixed sum), against its 99.9 % point 37.7. Excluded
+  // volume makes the counts vary less than independent ones, so false alarms are rarer than 0.1 %.
   const Packing packing = pack_layer(recipe(fine_carbonate(), 0.65, 5, 10));
   double counts[16] = {};
   const double width = packing.layer.cell.width_x;
@@ -172,8 +174,10 @@ TEST(PackLayer, RefusesTheImpossibleWithTheReason) {
     EXPECT_NE(refusal(r).find(words), std::string::npos) << refusal(r);
   };
   says(recipe(fine_carbonate(), 0.95, 5, 10), "layer.solids: 95 wt% (87.6 vol%) cannot be packed");
-  says(recipe(fine_carbonate(), 0.65, 3.9, 10), "layer.width: 3.9 um is less than two largest diameters (4 um)");
-  says(recipe(fine_carbonate(), 0.65, 5, 1.9), "layer.thickness: a wet layer of 1.9 um is thinner than the largest");
+  says(recipe(fine_carbonate(), 0.65, 3.9, 10),
+       "layer.width: 3.9 um is less than two largest diameters (4 um)");
+  says(recipe(fine_carbonate(), 0.65, 5, 1.9),
+       "layer.thickness: a wet layer of 1.9 um is thinner than the largest");
   says(recipe(spheres(1), 0.65, 5, 1.001), "minimum gap");
   // One row of spheres cannot reach 78 wt% between two planes that leave no second row.
   says(recipe(spheres(0.5), 0.78, 3, 0.6), "no packing without overlaps was found");

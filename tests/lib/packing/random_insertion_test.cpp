@@ -50,8 +50,8 @@ TEST(RandomInsertion, CountsThoseThatFoundNoPlace) {
 }
 
 TEST(RandomInsertion, TakesTheFirstFreePlaceOfASingleSphereEvenly) {
-  // One sphere among nothing: its height is uniform over the room between the planes. Kolmogorov's 99.9 % point for
-  // 1000 seeds: 1.95/sqrt(1000) = 0.0617, a false alarm in a thousand (the seeds are fixed).
+  // One sphere among nothing: its height is uniform over the room between the planes. Kolmogorov's 99.9 %
+  // point for 1000 seeds: 1.95/sqrt(1000) = 0.0617, a false alarm in a thousand (the seeds are fixed).
   std::vector<double> height;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed)
     height.push_back((insert_largest_first({3, 1, 5}, {0.5}, seed).centre[0].z() - 1.5) / 3);

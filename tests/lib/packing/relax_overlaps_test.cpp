@@ -37,8 +37,8 @@ TEST(RelaxOverlaps, LeavesWhatDoesNotOverlap) {
 }
 
 TEST(RelaxOverlaps, SaysThatItCannot) {
-  // Six spheres of 1 um in a slab of 2.1 x 2.1 x 1.1 um: one layer, whose discs alone (6 pi/4 = 4.7 um2, 1 % less for
-  // the slack in height) are larger than its area of 4.4 um2.
+  // Six spheres of 1 um in a slab of 2.1 x 2.1 x 1.1 um: one layer, whose discs alone (6 pi/4 = 4.7 um2, 1 %
+  // less for the slack in height) are larger than its area of 4.4 um2.
   Vec3Array centre;
   for (int i = 0; i < 6; ++i) {
     const auto u = random_uniforms({1, Stream::Tests}, i);

@@ -47,7 +47,8 @@ TEST(SampleSizes, FollowTheLawByNumberAndByWeight) {
 }
 
 TEST(SampleSizes, SingleStrataAreDrawnAtRandom) {
-  // A law of one particle is drawn anew for each seed: over 400 seeds its quantiles are uniform. False alarm: 1e-4.
+  // A law of one particle is drawn anew for each seed: over 400 seeds its quantiles are uniform. False alarm:
+  // 1e-4.
   const std::vector<Species> species{fine_carbonate()};
   const std::vector<SizeDistribution> sizes{SizeDistribution(species[0].size)};
   std::vector<double> diameter;
@@ -58,11 +59,13 @@ TEST(SampleSizes, SingleStrataAreDrawnAtRandom) {
 
 TEST(SampleSizes, MixByWeight) {
   const std::vector<Species> species{fine_carbonate(100), latex(10)};
-  const std::vector<SizeDistribution> sizes{SizeDistribution(species[0].size), SizeDistribution(species[1].size)};
+  const std::vector<SizeDistribution> sizes{SizeDistribution(species[0].size),
+                                            SizeDistribution(species[1].size)};
   const Particles particles = sample_particles(species, sizes, 100, 1);
   double mass[2] = {0, 0};
   for (std::size_t i = 0; i < particles.size(); ++i) mass[particles.species[i]] += particles.mass[i];
-  // The carbonate's mass is sampled to a per cent or so; the latex's is rounded to a particle out of ten thousand.
+  // The carbonate's mass is sampled to a per cent or so; the latex's is rounded to a particle out of ten
+  // thousand.
   EXPECT_NEAR(mass[1] / mass[0], 0.1, 0.002);
   EXPECT_TRUE(std::is_sorted(particles.radius.rbegin(), particles.radius.rend()));
   for (std::size_t i = 0; i < particles.size(); ++i) ASSERT_EQ(particles.id[i], static_cast<std::int64_t>(i));

@@ -38,7 +38,8 @@ TEST(Statistics, DistanceIsTheLargestOfBothSidesOfEachStep) {
   // One particle at the quantile 0.3: the step is 0.7 away from the law at its top.
   const double d = sizes.diameter_at_number(0.3);
   EXPECT_NEAR(compare_numbers({d}, sizes).distance, 0.7, 1e-12);
-  EXPECT_NEAR(compare_weights({d}, sizes).distance, std::max(sizes.weight_below(d), 1 - sizes.weight_below(d)), 1e-12);
+  EXPECT_NEAR(compare_weights({d}, sizes).distance,
+              std::max(sizes.weight_below(d), 1 - sizes.weight_below(d)), 1e-12);
   // A wrong sample is caught: 500 particles of one size.
   EXPECT_LT(compare_numbers(std::vector<double>(500, d), sizes).p_value, 1e-12);
 }
@@ -66,7 +67,8 @@ TEST(Statistics, SolidsByHand) {
 TEST(Statistics, ProfileHoldsAllSolids) {
   const ProfileFlatness profile = measure_flatness(two_spheres(), 24);
   double volume = 0;
-  for (std::size_t s = 0; s < 24; ++s) volume += profile.volume_fraction[s] * 16 * (profile.edges[s + 1] - profile.edges[s]);
+  for (std::size_t s = 0; s < 24; ++s)
+    volume += profile.volume_fraction[s] * 16 * (profile.edges[s + 1] - profile.edges[s]);
   EXPECT_NEAR(volume, 4.0 / 3 * std::numbers::pi * 1.125, 1e-13);
   // Cap of the large sphere from 0.25 to 1 um: pi h^2 (3 a - h)/3 with h = 0.75.
   EXPECT_NEAR(profile.outer_bottom * 16, std::numbers::pi * 0.5625 * 2.25 / 3, 1e-14);
