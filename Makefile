@@ -48,7 +48,7 @@ test: configure
 
 bench: configure
 	cmake --build $(BUILD) --parallel $(JOBS) --target all benchmarks
-	for program in $(BUILD)/bench/bench_*; do "$$program" || exit 1; done
+	cd $(BUILD)/bench && for program in ./bench_*; do "$$program" || exit 1; done
 
 install: build
 	DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)'
