@@ -206,6 +206,9 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
         const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - film_.height_end;
         f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
         t.along += dt_ * s.stiffness;
+        // On the stiff line the particle moves with the surface to within 1e-9 um.
+        if (s.stiffness >= forces::constraint_stiffness)
+          system.reference[static_cast<std::size_t>(k) * D + 2] = (s.anchor - without_motion) / dt_;
       }
     }
     system.particle[k] = t;
@@ -265,6 +268,7 @@ void StepAssembly::build(solve::PairSystem& system) const {
   system.squeeze.resize(chunks);
   const std::size_t D = system.unknowns_per_particle();
   std::vector<double> sum((n + topology_.halo_count()) * D);
+  system.reference.assign(interactions_.free_surface ? n * D : 0, 0.0);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)

@@ -58,10 +58,17 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
   const std::size_t n = topology.particles(), size = n * D;
   const int count = topology.chunks().count();
   const std::vector<double>& b = system.right_hand_side;
-  const bool guess = x.size() == size;
+  bool guess = x.size() == size;
   if (!guess) x.assign(size, 0.0);
+  const bool reference = !system.reference.empty();
+  if (reference) {
+    guess = true;
+    for (std::size_t q = 0; q < size; ++q)
+      if (system.reference[q] != 0) x[q] = system.reference[q];
+  }
   const BlockJacobi<D> preconditioner(system);
   std::vector<double> r(size), z(size), p(size), ap((n + topology.halo_count()) * D);
+  std::vector<double> scale(reference ? ap.size() : 0);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count);
   SolveReport report;
   double rz = 0, bb = 0, target = 0;
@@ -74,14 +81,21 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, ap.data());
     }
+    if (reference) {
+#pragma omp for schedule(static)
+      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, system.reference.data(), scale.data());
+#pragma omp for schedule(static)
+      for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, scale.data());
+    }
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) {
       double own_bb = 0, own_rz = 0;
       for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k) {
-        double zb[D];
-        preconditioner.solve(k, &b[k * D], zb);
+        double s[D], zs[D];
+        for (int d = 0; d < D; ++d) s[d] = b[k * D + d] - (reference ? scale[k * D + d] : 0.0);
+        preconditioner.solve(k, s, zs);
         for (int d = 0; d < D; ++d) {
-          own_bb += b[k * D + d] * zb[d];
+          own_bb += s[d] * zs[d];
           r[k * D + d] = b[k * D + d] - (guess ? ap[k * D + d] : 0.0);
         }
         preconditioner.solve(k, &r[k * D], &z[k * D]);

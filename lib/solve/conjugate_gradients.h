@@ -10,7 +10,7 @@ namespace pigment::solve {
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
-  double residual = -1;  // sqrt(r M^-1 r / b M^-1 b)
+  double residual = -1;  // sqrt(r M^-1 r / s M^-1 s), s = b - A reference
   std::string message;
 };
 
