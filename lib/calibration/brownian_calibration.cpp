@@ -50,7 +50,10 @@ BrownianCalibration calibrate(const LiquidParameters& parameters, const Calibrat
     for (int s = 0; s < settings.displacements; ++s) {
       const Vec3Array before = state.position;
       stepper.advance(state, dt);
-      for (int k = 0; k < settings.simulations; ++k) square[k] += (state.position[k] - before[k]).squaredNorm();
+      for (int k = 0; k < settings.simulations; ++k) {
+        const double dx = state.position[k].x() - before[k].x();
+        square[k] += dx * dx;
+      }
       if (on_progress && s % 1000 == 0)
         on_progress((static_cast<double>(t) + static_cast<double>(s) / settings.displacements) / static_cast<double>(settings.temperatures.size()));
     }
@@ -58,7 +61,7 @@ BrownianCalibration calibrate(const LiquidParameters& parameters, const Calibrat
     const double diffusivity = liquid.thermal_energy() / (6 * std::numbers::pi * liquid.viscosity * settings.radius);
     double sum = 0, sum_of_squares = 0;
     for (double q : square) {
-      const double k = std::sqrt(2 * diffusivity * dt / (q / (3.0 * settings.displacements)));
+      const double k = std::sqrt(2 * diffusivity * dt / (q / settings.displacements));
       sum += k;
       sum_of_squares += k * k;
     }

@@ -75,7 +75,8 @@ std::vector<double> observe(const Problem& problem, const RunState& state, doubl
           stepped ? sum[Duration] / sum[Steps] : 0.0,
           stepped ? sum[Iterations] / sum[Steps] : 0.0,
           sum[Contacts],
-          surface ? non_affine_rate(state, height) : 0.0};
+          surface ? non_affine_rate(state, height) : 0.0,
+          surface && state.frame > 0 ? redistribution_ratio(state.redistribution) : 1.0};
 }
 
 }  // namespace
@@ -95,6 +96,7 @@ const std::vector<ObservableName>& observable_names() {
       {Observable::SolverIterations, "solver_iterations", Dimension::Number},
       {Observable::Contacts, "contacts", Dimension::Number},
       {Observable::NonAffineRate, "non_affine_rate", Dimension::Number},
+      {Observable::Redistribution, "redistribution", Dimension::Number},
   };
   return names;
 }
@@ -102,7 +104,13 @@ const std::vector<ObservableName>& observable_names() {
 std::string consolidate(const Problem& problem, const RunSettings& settings, RunState& state, const RunCallbacks& callbacks) {
   Stepper stepper(problem, state);
   const bool surface = problem.interactions.free_surface.has_value();
+  const auto window = static_cast<std::size_t>(std::max(1.0, std::ceil(problem.stepping.immobile_window / settings.output_every - 1e-9)));
   const auto store_frame = [&](double height) {
+    if (state.frame > 0) {
+      state.redistribution.push_back(redistribution_between(state.frame_position, state.position, problem.particles.radius,
+                                                            state.frame_height, height));
+      if (state.redistribution.size() > window) state.redistribution.pop_front();
+    }
     const std::vector<double> observables = observe(problem, state, height);
     ++state.frame;
     callbacks.on_frame(state, height, observables);
@@ -140,9 +148,8 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
     if (!surface) continue;
     if (observables[static_cast<int>(Observable::ProtrudingFraction)] > problem.stepping.protruding_limit)
       return "first_critical_concentration";
-    // The first interval tells more of the packing than of the run.
-    if (problem.stepping.stop_when == SteppingParameters::StopWhen::Immobile && state.frame > 2 &&
-        observables[static_cast<int>(Observable::NonAffineRate)] < problem.stepping.immobile_rate)
+    if (problem.stepping.stop_when == SteppingParameters::StopWhen::Immobile && state.redistribution.size() == window &&
+        observables[static_cast<int>(Observable::Redistribution)] < problem.stepping.immobile_rate)
       return "immobile";
   }
 }

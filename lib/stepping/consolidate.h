@@ -11,7 +11,7 @@ namespace pigment::stepping {
 // Scalars recorded with every frame, in this order.
 enum class Observable {
   Thickness, Z95, Z99, SolidsMassFraction, MassCentre, SurfacePressure, SubstratePressure, ProtrudingFraction,
-  MinimumGap, StepSize, SolverIterations, Contacts, NonAffineRate,
+  MinimumGap, StepSize, SolverIterations, Contacts, NonAffineRate, Redistribution,
 };
 struct ObservableName {
   Observable observable;

@@ -9,13 +9,14 @@ namespace pigment::stepping {
 struct SteppingParameters {
   enum class Integrator { LinearlyImplicit, ExplicitEuler };
   Integrator integrator = Integrator::LinearlyImplicit;
-  double tolerance = 1e-2;           // error of a gap in one step, in Debye lengths (see step_control.h)
+  double tolerance = 1e-3;           // error of a gap in one step, in Debye lengths (see step_control.h)
   std::optional<double> time_step;   // ms; given: fixed steps
   std::optional<double> until;       // ms; absent: the end of the dewatering curve
   enum class StopWhen { Immobile, Until };
   StopWhen stop_when = StopWhen::Until;
   double solver_tolerance = 1e-5;    // relative residual of each solve
-  double immobile_rate = 1e-2;       // immobile: non-affine rms of the vertical motion over a frame is below this share of |dH|
+  double immobile_rate = 1e-2;       // immobile: mass displacement between heights over the window is below this share of |dH|
+  double immobile_window = 25;       // ms; in whole output frames, at least one (model/redistribution.h)
   double protruding_limit = 1e-2;    // first critical concentration: more than this share of the solids is above the surface
 };
 SteppingParameters read_stepping(config::Node);

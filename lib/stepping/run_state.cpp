@@ -19,6 +19,11 @@ Vec3Array vectors(const std::vector<double>& f) {
 }  // namespace
 
 std::map<std::string, std::vector<double>> RunState::arrays() const {
+  std::vector<double> redistributions;
+  for (const Redistribution& r : redistribution) {
+    redistributions.push_back(r.fall);
+    redistributions.insert(redistributions.end(), r.residual.begin(), r.residual.end());
+  }
   return {{"scalars", {time, preferred_step, last_step, frame_height}},
           {"position", flat(position)},
           {"velocity", flat(velocity)},
@@ -28,6 +33,7 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
           {"protrusion", protrusion},
           {"list_reference", flat(list_reference)},
           {"frame_position", flat(frame_position)},
+          {"redistribution", redistributions},
           {"interval", interval}};
 }
 
@@ -51,6 +57,11 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.protrusion = a.at("protrusion");
   s.list_reference = vectors(a.at("list_reference"));
   s.frame_position = vectors(a.at("frame_position"));
+  const std::vector<double>& redistributions = a.at("redistribution");
+  for (std::size_t k = 0; k + redistribution_slices < redistributions.size(); k += redistribution_slices + 1) {
+    const auto first = redistributions.begin() + static_cast<std::ptrdiff_t>(k);
+    s.redistribution.push_back({{first + 1, first + 1 + redistribution_slices}, *first});
+  }
   s.interval = a.at("interval");
   return s;
 }

@@ -1,11 +1,13 @@
 #pragma once
 // Everything that can influence the rest of a run and is not an input: what a checkpoint holds.
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "base/vec.h"
+#include "model/redistribution.h"
 
 namespace pigment::stepping {
 
@@ -24,6 +26,7 @@ struct RunState {
   Vec3Array list_reference;         // positions at which the neighbour list was made
   Vec3Array frame_position;         // positions at the last output frame: immobility is judged over a frame
   double frame_height = 0;          // H then
+  std::deque<Redistribution> redistribution;  // of the last frames, as many as the immobility window holds
   std::vector<double> interval;     // sums since the last frame (stepping/consolidate.cpp)
 
   std::map<std::string, std::vector<double>> arrays() const;

@@ -44,8 +44,9 @@ TEST_P(EveryLaw, ForceAndStiffnessAreSlopes) {
       const double force_noise = 1e-14 * std::abs(c.energy) / step, stiffness_noise = 1e-14 * std::abs(c.force) / step;
       // A law may have a kink in its stiffness (steric layers touch, the floor): there the difference lies between both sides.
       EXPECT_NEAR(c.force, force, 1e-4 * std::abs(force) + force_noise + 2 * step * std::abs(c.stiffness) + 1e-12) << entry().name << " " << gap;
-      if (std::abs(a.stiffness - b.stiffness) < 1e-2 * std::abs(c.stiffness) + 1e-9)
+      if (std::abs(a.stiffness - b.stiffness) < 1e-2 * std::abs(c.stiffness) + 1e-9) {
         EXPECT_NEAR(c.stiffness, stiffness, 1e-3 * std::abs(stiffness) + stiffness_noise + 1e-9) << entry().name << " " << gap;
+      }
     }
 }
 
