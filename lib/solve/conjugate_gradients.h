@@ -1,8 +1,10 @@
 #pragma once
-// Preconditioned conjugate gradients on a PairSystem, block Jacobi preconditioner. Same bytes at any number of threads.
+// Preconditioned conjugate gradients on a PairSystem; block Jacobi preconditioner, or a factor of a similar matrix. Same bytes
+// at any number of threads.
 #include <string>
 #include <vector>
 
+#include "solve/cholmod_factor.h"
 #include "solve/pair_system.h"
 
 namespace pigment::solve {
@@ -20,6 +22,8 @@ struct ConjugateGradientOptions {
 };
 
 // x: in, the starting guess (empty: zero); out, the solution. An unconverged or non-finite solve is a report, not an error.
-SolveReport conjugate_gradients(const PairSystem&, std::vector<double>& x, const ConjugateGradientOptions&);
+// factor: ready, preconditions in place of block Jacobi.
+SolveReport conjugate_gradients(const PairSystem&, std::vector<double>& x, const ConjugateGradientOptions&,
+                                CholmodFactor* factor = nullptr);
 
 }  // namespace pigment::solve

@@ -22,12 +22,14 @@ struct ParticleTerm {
 };
 // Shear, pump and twist besides squeeze.
 struct FullPair {
-  std::int32_t i, j, target;  // target: where contributions to j go: j itself, or N + halo slot
+  std::int32_t i, j;
+  std::int64_t target;  // target: where contributions to j go: j itself, or N + halo slot
   double n[3], l_i, l_j, squeeze, twist, a, b, c;
 };
 // Far enough for squeeze alone.
 struct SqueezePair {
-  std::int32_t i, j, target;
+  std::int32_t i, j;
+  std::int64_t target;
   double n[3], squeeze;
 };
 

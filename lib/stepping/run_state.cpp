@@ -37,7 +37,7 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
           {"interval", interval}};
 }
 
-std::map<std::string, std::vector<std::int64_t>> RunState::integers() const { return {{"counters", {step, frame}}}; }
+std::map<std::string, std::vector<std::int64_t>> RunState::integers() const { return {{"counters", {step, frame}}, {"solver_factor", solver_factor}}; }
 
 RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
                         const std::map<std::string, std::vector<std::int64_t>>& i) {
@@ -49,6 +49,7 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.frame_height = scalars.at(3);
   s.step = i.at("counters").at(0);
   s.frame = i.at("counters").at(1);
+  s.solver_factor = i.at("solver_factor");
   s.position = vectors(a.at("position"));
   s.velocity = vectors(a.at("velocity"));
   s.angular_velocity = vectors(a.at("angular_velocity"));

@@ -26,6 +26,7 @@ struct RunState {
   Vec3Array list_reference;         // positions at which the neighbour list was made
   Vec3Array frame_position;         // positions at the last output frame: immobility is judged over a frame
   double frame_height = 0;          // H then
+  std::vector<std::int64_t> solver_factor;    // matrix of the factor that the solver keeps (solve/adaptive_solver.h)
   std::deque<Redistribution> redistribution;  // of the last frames, as many as the immobility window holds
   std::vector<double> interval;     // sums since the last frame (stepping/consolidate.cpp)
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "neighbours/neighbour_list.h"
+#include "solve/adaptive_solver.h"
 #include "stepping/step_control.h"
 
 namespace pigment::stepping {
@@ -26,6 +27,8 @@ struct Stepper::Data {
   neighbours::NeighbourList list;
   std::unique_ptr<assembly::StepAssembly> assembly;
   solve::PairSystem system;
+  solve::AdaptiveSolver solver;
+  long saved_factor = 0;  // revision of the factor that the state holds
   std::vector<double> rate, previous_rate;
 
   explicit Data(const Problem& p) : problem(p) {}
@@ -123,6 +126,7 @@ struct Stepper::Data {
 
 Stepper::Stepper(const Problem& problem, const RunState& state) : data_(std::make_unique<Data>(problem)) {
   data_->make_list(state.list_reference, data_->liquid_at_time(state.time));
+  data_->solver.restore_factor(state.solver_factor, data_->assembly->topology());
 }
 Stepper::~Stepper() = default;
 
@@ -145,6 +149,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
   if (d.list.is_spent(state.position)) {
     state.list_reference = state.position;
     d.make_list(state.list_reference, liquid);
+    d.solver.forget_factor();
   }
   double dt = std::min(state.preferred_step, longest);
   if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
@@ -165,7 +170,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
     bool good = false;
     for (int pass = 0; pass < most_refinements; ++pass) {
       d.assembly->build(d.system);
-      solve = solve::conjugate_gradients(d.system, solution, options);
+      solve = d.solver.solve(d.system, solution, options);
       report.iterations += solve.iterations;
       ++report.solves;
       if (!solve.converged) break;
@@ -193,6 +198,10 @@ StepReport Stepper::advance(RunState& state, double longest) {
         state.position[i] += dt * state.velocity[i];
       }
       state.protrusion = d.assembly->protrusions();
+      if (d.solver.revision() != d.saved_factor) {
+        state.solver_factor = d.solver.packed_factor();
+        d.saved_factor = d.solver.revision();
+      }
       state.last_step = dt;
       state.time += dt;
       ++state.step;
