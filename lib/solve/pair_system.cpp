@@ -62,7 +62,34 @@ void apply_all(const PairSystem& system, const std::vector<double>& x, std::vect
   y.assign(sum.begin(), sum.begin() + topology.particles() * D);
 }
 
-// The diagonal blocks of one pair: its own arithmetic applied to unit motions of one particle, the other at rest.
+// What a full pair adds to the block of one of its particles, moving alone. With N = n x, P = 1 - n n^T, l its lever and
+// sign = +1 for i, -1 for j: uu: squeeze n n^T + a P;  ww: (a l^2 + 2 sign b l + c) P + twist n n^T;
+// uw: -sign (a l + sign b) N, and wu its transpose.
+template <int D>
+void add_full_block(const FullPair& p, double l, double sign, double* m) {
+  const double* n = p.n;
+  const double spin = p.a * l * l + 2 * sign * p.b * l + p.c, cross = sign * p.a * l + p.b;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      const double nn = n[r] * n[c], projection = (r == c ? 1.0 : 0.0) - nn;
+      m[r * D + c] += p.squeeze * nn + p.a * projection;
+      if constexpr (D == 6) m[(r + 3) * D + c + 3] += spin * projection + p.twist * nn;
+    }
+  if constexpr (D == 6) {
+    // -cross N above the diagonal, its transpose below; N = [0 -nz ny; nz 0 -nx; -ny nx 0]
+    const auto put = [&](int r, int c, double value) {
+      m[r * D + 3 + c] -= cross * value;
+      m[(3 + c) * D + r] -= cross * value;
+    };
+    put(0, 1, -n[2]);
+    put(0, 2, n[1]);
+    put(1, 0, n[2]);
+    put(1, 2, -n[0]);
+    put(2, 0, -n[1]);
+    put(2, 1, n[0]);
+  }
+}
+
 template <int D>
 std::vector<double> blocks(const PairSystem& system) {
   const PairTopology& topology = *system.topology;
@@ -70,10 +97,6 @@ std::vector<double> blocks(const PairSystem& system) {
   constexpr int B = D * D;
   const std::size_t n = topology.particles();
   std::vector<double> block((n + topology.halo_count()) * B, 0.0);
-  const auto add_outer = [](double* m, const double (&u)[D], double weight) {
-    for (int r = 0; r < D; ++r)
-      for (int c = 0; c < D; ++c) m[r * D + c] += weight * u[r] * u[c];
-  };
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
@@ -86,24 +109,16 @@ std::vector<double> blocks(const PairSystem& system) {
           for (int r = 0; r < D; ++r) block[k * B + r * D + d] = column[r];
         }
       }
-      for (const SqueezePair& p : system.squeeze[c]) {
-        double u[D] = {};
-        for (int d = 0; d < 3; ++d) u[d] = p.n[d];
-        add_outer(&block[p.i * B], u, p.squeeze);
-        add_outer(&block[static_cast<std::size_t>(p.target) * B], u, p.squeeze);
-      }
-      for (const FullPair& p : system.full[c]) {
-        for (int side = 0; side < 2; ++side) {
-          double* m = &block[(side == 0 ? static_cast<std::size_t>(p.i) : static_cast<std::size_t>(p.target)) * B];
-          const double zero[D] = {};
-          for (int d = 0; d < D; ++d) {
-            double unit[D] = {}, yi[D] = {}, yj[D] = {};
-            unit[d] = 1;
-            if (side == 0) add_full_pair<D>(p, unit, zero, yi, yj);
-            else add_full_pair<D>(p, zero, unit, yi, yj);
-            for (int r = 0; r < D; ++r) m[r * D + d] += side == 0 ? yi[r] : yj[r];
+      for (const SqueezePair& p : system.squeeze[c])
+        for (int r = 0; r < 3; ++r)
+          for (int q = 0; q < 3; ++q) {
+            const double value = p.squeeze * p.n[r] * p.n[q];
+            block[p.i * B + r * D + q] += value;
+            block[static_cast<std::size_t>(p.target) * B + r * D + q] += value;
           }
-        }
+      for (const FullPair& p : system.full[c]) {
+        add_full_block<D>(p, p.l_i, +1, &block[p.i * B]);
+        add_full_block<D>(p, p.l_j, -1, &block[static_cast<std::size_t>(p.target) * B]);
       }
     }
 #pragma omp for schedule(static)

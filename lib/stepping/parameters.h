@@ -14,9 +14,9 @@ struct SteppingParameters {
   std::optional<double> until;       // ms; absent: the end of the dewatering curve
   enum class StopWhen { Immobile, Until };
   StopWhen stop_when = StopWhen::Until;
-  double solver_tolerance = 1e-5;    // relative residual of each solve
+  double solver_tolerance = 1e-4;    // relative residual of each solve
   double immobile_rate = 1e-2;       // immobile: mass displacement between heights over the window is below this share of |dH|
-  double immobile_window = 25;       // ms; in whole output frames, at least one (model/redistribution.h)
+  double immobile_window = 50;       // ms; in whole output frames, at least one (model/redistribution.h)
   double protruding_limit = 1e-2;    // first critical concentration: more than this share of the solids is above the surface
 };
 SteppingParameters read_stepping(config::Node);

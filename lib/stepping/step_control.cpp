@@ -15,7 +15,7 @@ double gap_scale(const assembly::Interactions& interactions, const Liquid& liqui
 double brownian_step(const Particles& particles, const Liquid& liquid, double scale) {
   const double smallest = *std::min_element(particles.radius.begin(), particles.radius.end());
   const double diffusivity = liquid.thermal_energy() / (6 * std::numbers::pi * liquid.viscosity * smallest);
-  return 4 * scale * scale / (2 * diffusivity);
+  return 9 * scale * scale / (2 * diffusivity);
 }
 
 double next_step(double step, double error) {

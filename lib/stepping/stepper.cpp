@@ -53,9 +53,9 @@ struct Stepper::Data {
   }
   void make_list(const Vec3Array& reference, const Liquid& liquid) {
     neighbours::PairRange range = assembly::pair_range(problem.interactions, liquid);
-    // A wider skin lists more pairs and lasts longer; a tenth of the smallest radius, at least 20 nm, is near the best.
+    // A wider skin lists more pairs and lasts longer. Noise shakes every particle at every step and spends it sooner.
     const double smallest = *std::min_element(problem.particles.radius.begin(), problem.particles.radius.end());
-    range.skin = std::max(0.02, 0.4 * smallest);
+    range.skin = std::max(0.02, (problem.interactions.brownian ? 0.8 : 0.4) * smallest);
     list = neighbours::make_neighbour_list(problem.cell, reference, problem.particles.radius, range);
     assembly = std::make_unique<assembly::StepAssembly>(problem.interactions, problem.particles, problem.cell, list);
   }

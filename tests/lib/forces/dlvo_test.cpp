@@ -1,5 +1,5 @@
 // The DLVO curves of Fig. 2 of [sand2010] against values computed independently (bisection on the closed forms at 30 digits):
-// two 1 um spheres, 25 degC, A = 1e-21 J, lambda = 100 nm.
+// two 1 um spheres, 25 degC, relative permittivity 80, A = 1e-21 J, lambda = 100 nm.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,12 +11,19 @@ using namespace pigment::forces;
 
 namespace {
 
+// Table 3 of [sand2010]: relative permittivity 80.
+Liquid table_3() {
+  LiquidParameters liquid;
+  liquid.relative_permittivity = 80;
+  return liquid_at(liquid, 298.15);
+}
+
 std::unique_ptr<PreparedPairLaw> law(const std::string& name, const std::string& block) {
   for (const PairLawEntry& entry : pair_laws())
     if (entry.name == name) {
       auto document = config::Document::from_text("colloidal: {" + name + ": " + block + "}");
       config::Node colloidal = document.root().block("colloidal");
-      return entry.read(colloidal.block(name), colloidal)->prepare(liquid_at({}, 298.15));
+      return entry.read(colloidal.block(name), colloidal)->prepare(table_3());
     }
   return nullptr;
 }
@@ -78,7 +85,7 @@ TEST(Electrostatic, UnequalPotentialsMeetTheEqualForm) {
 TEST(Electrostatic, DebyeLengthFromTheElectrolyte) {
   // 3.290e9 sqrt(c) 1/m at eps 78.4, 25 degC, c in mol/l [sand2010] (18): at 10 mol/m3, 1/kappa = 3.04 nm; the cutoff is 20 of it.
   const auto e = law("electrostatic", "{electrolyte: {valence: 1, concentration: 10 mol/m3}}");
-  EXPECT_NEAR(e->cutoff_gap() / 20 * 1e3, 1 / (3.290e9 * std::sqrt(0.01)) * 1e9, 0.01);
+  EXPECT_NEAR(e->cutoff_gap() / 20 * 1e3, 1 / (3.290e9 * std::sqrt(0.01)) * 1e9 * std::sqrt(80 / 78.4), 0.01);
 }
 
 TEST(Steric, RepelsEverywhereAndEndsAtTwoLayers) {
