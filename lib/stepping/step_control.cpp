@@ -9,7 +9,7 @@ namespace pigment::stepping {
 double gap_scale(const assembly::Interactions& interactions, const Liquid& liquid) {
   for (const auto& [name, law] : interactions.colloidal)
     if (name == "electrostatic") return law->prepare(liquid)->cutoff_gap() / 20;  // its cutoff is 20 Debye lengths
-  return 0.005;
+  return 5e-4;
 }
 
 double brownian_step(const Particles& particles, const Liquid& liquid, double scale) {

@@ -12,7 +12,7 @@
 
 namespace pigment::stepping {
 
-// The scene's Debye length, um; 5 nm where it has no electrostatic law.
+// The scene's Debye length, um; 0.5 nm, a molecule, where it has no electrostatic law.
 double gap_scale(const assembly::Interactions&, const Liquid&);
 // ms.
 double brownian_step(const Particles&, const Liquid&, double gap_scale);

@@ -100,7 +100,9 @@ struct Stepper::Data {
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t p = 0; p < rate.size(); ++p) {
-      if (gap[p] > 20 * scale) continue;
+      const auto pair = assembly->pair(p);
+      const double smaller = std::min(problem.particles.radius[list.order[pair.i]], problem.particles.radius[list.order[pair.j]]);
+      if (gap[p] > std::max(20 * scale, 0.4 * smaller)) continue;
       const double error = 0.5 * dt * dt * (rate[p] - previous_rate[p]) / mean_step / (std::max(gap[p], 0.0) + scale);
       sum += error * error;
       ++count;

@@ -1,0 +1,145 @@
+// A small drying layer: what is conserved, what is imposed, and what must not depend on threads, steps or interruptions.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "model/layer_measures.h"
+#include "packing/pack_layer.h"
+#include "stepping/consolidate.h"
+#include "support/one_layer.h"
+
+using namespace pigment;
+
+namespace {
+
+struct SmallLayer {
+  stepping::Problem problem;
+  Vec3Array position;
+};
+
+SmallLayer small_layer(bool brownian) {
+  SmallLayer small;
+  packing::Recipe recipe;
+  recipe.layer.thickness = 4;
+  recipe.layer.solids = 0.65;
+  recipe.layer.width = 2.5;
+  recipe.packing.minimum_gap = 0.002;
+  Species species;
+  species.name = "pigment";
+  species.size.kind = SizeLaw::Kind::Lognormal;
+  species.size.mean = 1.5;
+  species.size.standard_deviation = 10;
+  species.size.median = 0.2225;
+  species.size.geometric_standard_deviation = 7.05;
+  species.size.min = 0.25;
+  species.size.max = 1.0;
+  recipe.species = {species};
+  const packing::Packing packed = packing::pack_layer(recipe);
+  stepping::Problem& problem = small.problem;
+  problem.particles = packed.layer.particles;
+  problem.cell = packed.layer.cell;
+  small.position = packed.layer.position;
+  auto document = config::Document::from_text("colloidal: {electrostatic: {debye_length: 5 nm}, van_der_waals: {}, born: {}}");
+  assembly::Interactions& in = problem.interactions;
+  in.colloidal = forces::read_colloidal(document.root().block("colloidal"));
+  in.surface_potential = {-25};
+  in.substrate.emplace();
+  in.free_surface.emplace();
+  if (brownian) in.brownian.emplace();
+  problem.dewatering.time = {0, 10, 50};
+  problem.dewatering.absorption_flux = {0.02, 0.01, 0.01};
+  problem.dewatering.evaporation_flux = {0.01, 0.02, 0.01};
+  return small;
+}
+
+struct Recorded {
+  stepping::RunState state;
+  std::vector<std::vector<double>> observables;
+  std::string outcome;
+};
+
+// Runs to 30 ms; stops after `interrupt_after` steps each time and goes on from the state's arrays, if asked to.
+Recorded run(const SmallLayer& small, int interrupt_after = 0) {
+  Recorded recorded;
+  recorded.state = stepping::initial_state(small.problem, small.position);
+  int steps = 0;
+  stepping::RunCallbacks callbacks;
+  callbacks.on_frame = [&](const stepping::RunState&, double, const std::vector<double>& o) { recorded.observables.push_back(o); };
+  callbacks.on_step = [&](const stepping::RunState&) { return interrupt_after > 0 && ++steps % interrupt_after == 0; };
+  do {
+    recorded.outcome = stepping::consolidate(small.problem, {5, 30}, recorded.state, callbacks);
+    if (recorded.outcome == "interrupted") recorded.state = stepping::RunState::from(recorded.state.arrays(), recorded.state.integers());
+  } while (recorded.outcome == "interrupted");
+  return recorded;
+}
+
+bool same_bytes(const Vec3Array& a, const Vec3Array& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+}  // namespace
+
+TEST(DryingLayer, ThicknessIsWhatTheDewateringLeaves) {
+  const SmallLayer small = small_layer(false);
+  const Recorded r = run(small);
+  EXPECT_EQ(r.outcome, "until");
+  ASSERT_EQ(r.observables.size(), 7u);
+  for (std::size_t k = 0; k < r.observables.size(); ++k) {
+    const double t = 5.0 * static_cast<double>(k);
+    // Integral of the piecewise linear fluxes, by hand: q + e is 0.03 throughout, then falls linearly to 0.02 at 50.
+    const double lost = t <= 10 ? 0.03 * t : 0.3 + 0.03 * (t - 10) - 0.5 * (0.01 / 40) * (t - 10) * (t - 10);
+    EXPECT_NEAR(r.observables[k][0], small.problem.cell.height - lost, 1e-12 * small.problem.cell.height);
+  }
+}
+
+TEST(DryingLayer, ParticlesStayBetweenSubstrateAndSurfaceAndNeverOverlap) {
+  const SmallLayer small = small_layer(false);
+  const Recorded r = run(small);
+  const auto& radius = small.problem.particles.radius;
+  const double surface = r.observables.back()[0];
+  for (std::size_t k = 0; k < radius.size(); ++k) {
+    EXPECT_GT(r.state.position[k].z(), radius[k]);
+    // held at the roughness, 2 nm below the surface; a step's catch may err by a thousandth of that
+    EXPECT_LT(r.state.position[k].z() + radius[k], surface - 0.002 + 2e-6);
+  }
+  EXPECT_TRUE(neighbours::find_pairs(small.problem.cell, r.state.position, radius, {0, 0, 0}).empty());
+  EXPECT_GT(r.observables.back()[11], 0);  // the surface holds some
+}
+
+TEST(DryingLayer, SameBytesAtAnyThreadCountAndHoweverOftenInterrupted) {
+  for (bool brownian : {false, true}) {
+    const SmallLayer small = small_layer(brownian);
+    omp_set_num_threads(2);
+    const Recorded whole = run(small);
+    omp_set_num_threads(1);
+    const Recorded single = run(small), broken = run(small, 3);
+    omp_set_num_threads(2);
+    EXPECT_TRUE(same_bytes(whole.state.position, single.state.position));
+    EXPECT_TRUE(same_bytes(whole.state.position, broken.state.position));
+    EXPECT_EQ(whole.observables, single.observables);
+    EXPECT_EQ(whole.observables, broken.observables);
+  }
+}
+
+// The network of a layer carries the surface's load to the substrate: what the surface presses with must come out below, but
+// for the drag of the liquid that flows through, which is a tenth of it here once the layer is dense.
+TEST(DryingLayer, ForcesBalance) {
+  SmallLayer small = small_layer(false);
+  small.problem.dewatering.absorption_flux = {0, 0, 0};  // evaporation alone: no drag but that of particles through liquid
+  small.problem.stepping.tolerance = 1e-4;
+  small.problem.stepping.solver_tolerance = 1e-8;
+  stepping::RunState state = stepping::initial_state(small.problem, small.position);
+  stepping::Stepper stepper(small.problem, state);
+  stepping::StepReport report;
+  while (state.time < 20) report = stepper.advance(state, 20 - state.time);
+  // Exact: surface pressure = substrate pressure + sum of Stokes drag over the area (the liquid rests).
+  const double mu = liquid_at({}, 298.15).viscosity;
+  double drag = 0;
+  for (std::size_t k = 0; k < state.velocity.size(); ++k)
+    drag += 6 * M_PI * mu * small.problem.particles.radius[k] * -state.velocity[k].z();
+  drag /= small.problem.cell.area();
+  EXPECT_NEAR(report.pressures.surface, report.pressures.substrate + drag, 1e-4 * report.pressures.surface);
+  EXPECT_GT(report.pressures.surface, 0);
+}
