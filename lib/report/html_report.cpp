@@ -33,7 +33,9 @@ void HtmlReport::close_section() {
 
 void HtmlReport::chapter(const std::string& title) {
   close_section();
-  body_ += "<h2 class=\"chapter\">" + html_escape(title) + "</h2>\n";
+  const std::string anchor = fmt::format("run{}", chapters_.size() + 1);
+  chapters_.emplace_back(anchor, title);
+  body_ += fmt::format("<h2 class=\"chapter\" id=\"{}\">{}</h2>\n", anchor, html_escape(title));
 }
 
 void HtmlReport::section(const std::string& title, const std::string& text) {
@@ -117,7 +119,7 @@ void HtmlReport::remark(const std::string& text) {
 
 std::string HtmlReport::page() const {
   std::string contents;
-  for (const auto& [anchor, title] : sections_)
+  for (const auto& [anchor, title] : chapters_.empty() ? sections_ : chapters_)
     contents += fmt::format("<a href=\"#{}\">{}</a>", anchor, html_escape(title));
   std::string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   out +=

@@ -45,7 +45,7 @@ class HtmlReport {
 
  private:
   std::string title_, subtitle_, body_, footer_;
-  std::vector<std::pair<std::string, std::string>> sections_;  // anchor, title
+  std::vector<std::pair<std::string, std::string>> sections_, chapters_;  // anchor, title
   int plots_ = 0;
   bool open_ = false;
   void close_section();

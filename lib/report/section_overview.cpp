@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "io/file_header.h"
+#include "io/h5.h"
 #include "report/sections.h"
 #include "report/ticks.h"
 
@@ -66,7 +68,9 @@ std::vector<MarkerLine> RunView::immobilisation_marker() const {
   return {{shown_time(*immobilisation_time), "immobile"}};
 }
 
-void add_overview(HtmlReport& page, const RunView& view) {
+namespace {
+
+std::vector<Headline> headlines_of(const RunView& view) {
   std::vector<Headline> numbers;
   const auto* trajectory = view.files.trajectory.get();
   if (trajectory && !trajectory->outcome().empty()) {
@@ -119,7 +123,38 @@ void add_overview(HtmlReport& page, const RunView& view) {
     if (const Rows clustered = rows_of(*cluster, "/cluster/clustered_fraction"))
       numbers.push_back(
           {"Clustered", number_text(100 * clustered.all().back(), 3), "%", "of the particles, at the end"});
-  if (!numbers.empty()) page.headlines(numbers);
+  return numbers;
+}
+
+// Every run's headline numbers, one run a row.
+void add_comparison(HtmlReport& page, const std::vector<RunView>& views) {
+  std::vector<std::string> head{"run"};
+  std::vector<std::vector<std::string>> rows;
+  for (const RunView& view : views) {
+    std::vector<std::string> row{view.files.name};
+    for (const Headline& h : headlines_of(view)) {
+      const auto column = std::find(head.begin(), head.end(), h.label);
+      const auto at = static_cast<std::size_t>(column - head.begin());
+      if (column == head.end()) head.push_back(h.label);
+      row.resize(std::max(row.size(), at + 1), "–");
+      row[at] = h.unit.empty() ? h.value : h.value + " " + h.unit;
+    }
+    rows.push_back(std::move(row));
+  }
+  for (auto& row : rows) row.resize(head.size(), "–");
+  page.section("Runs");
+  page.table(head, rows);
+}
+
+}  // namespace
+
+void add_overview(HtmlReport& page, const RunView& view) {
+  if (const auto numbers = headlines_of(view); !numbers.empty()) page.headlines(numbers);
+  if (const auto* trajectory = view.files.trajectory.get(); trajectory && trajectory->outcome() == "failed") {
+    const auto attributes = io::read_header(io::h5::InputFile(trajectory->path())).attributes;
+    const auto reason = attributes.find("reason");
+    page.remark("The run failed" + (reason == attributes.end() ? "." : ": " + reason->second));
+  }
 }
 
 HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& title,
@@ -131,9 +166,10 @@ HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& 
                              file->frame_count() > 1 ? fmt::format(", {} frames", file->frame_count()) : "");
   if (runs.size() > 1) subtitle = fmt::format("{} runs", runs.size());
   HtmlReport page(title, subtitle);
-  for (const RunFiles& files : runs) {
-    const RunView view(files);
-    if (runs.size() > 1) page.chapter(files.name);
+  const std::vector<RunView> views(runs.begin(), runs.end());
+  if (runs.size() > 1) add_comparison(page, views);
+  for (const RunView& view : views) {
+    if (runs.size() > 1) page.chapter(view.files.name);
     page.section("Summary");
     add_overview(page, view);
     add_pictures(page, view, wishes);
