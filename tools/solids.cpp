@@ -69,6 +69,7 @@ io::ResultFile to_result(const analysis::SolidsDevelopment& development,
   add_interval("non_affine_velocity", Dimension::Velocity, &NonAffineInterval::velocity);
   add_interval("shrinkage_rate", Dimension::Velocity, &NonAffineInterval::shrinkage_rate);
   add_interval("mass_centre_rate", Dimension::Velocity, &NonAffineInterval::mass_centre_rate);
+  add_interval("redistribution", Dimension::Number, &NonAffineInterval::redistribution);
   result.datasets.push_back(io::column(
       "/solids/immobilisation/judged", Dimension::Number, development.intervals,
       [](const NonAffineInterval& i) { return i.judged ? 1 : 0; }, io::Dataset::Storage::Int64));

@@ -39,6 +39,7 @@ Parameters read_analysis(config::Node node) {
       node.quantity("cake_solids", Dimension::VolumeFraction, "55 vol%", config::strictly_between(0, 1));
   p.wall_layer = node.quantity("wall_layer", Dimension::Length, "1 um", config::non_negative());
   p.envelope_column = node.quantity("envelope_column", Dimension::Length, "0.25 um", config::positive());
+  p.immobilisation_window = node.quantity("immobilisation_window", Dimension::Time, "50 ms", config::positive());
   p.immobilisation_ratio = node.number("immobilisation_ratio", p.immobilisation_ratio, config::positive());
   p.cluster_threshold = node.quantity("cluster_threshold", Dimension::Length, "20 nm", config::positive());
   p.separation_limit = automatic_or(node, "separation_limit", Dimension::Length, config::positive());

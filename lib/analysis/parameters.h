@@ -14,7 +14,8 @@ struct Parameters {
   double cake_solids = 0.55;      // volume fraction from which a slice counts as cake or skin
   double wall_layer = 1.0;        // um next to a plane where looser slices are passed over: spheres dip there
   double envelope_column = 0.25;  // um, lateral step of the top envelope
-  double immobilisation_ratio = 0.01;  // immobile: non-affine vertical motion below this share of |dH/dt|
+  double immobilisation_ratio = 0.01;  // immobile: mass moved between heights over the window, over the surface's fall
+  double immobilisation_window = 50;   // ms
   // clusters
   double cluster_threshold = 0.020;  // um, surface separation below which two particles are connected
   // separations

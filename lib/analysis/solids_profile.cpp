@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "model/layer_measures.h"
+#include "model/redistribution.h"
 #include "model/sphere_slice.h"
 
 namespace pigment::analysis {
@@ -142,6 +143,7 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   struct Measured {
     SolidsProfile profile;
     NonAffineInterval interval;
+    Redistribution redistribution;
   };
   SolidsDevelopment result;
   if (frames.count == 0) return result;
@@ -157,7 +159,9 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   std::vector<Measured> measured;
   if (frames.count > 1)
     measured = measure_intervals(kept, all, [&](const Snapshot& before, const Snapshot& after) {
-      return Measured{profile_solids(after, solids, parameters), non_affine_interval(before, after)};
+      return Measured{profile_solids(after, solids, parameters), non_affine_interval(before, after),
+                      redistribution_between(before.position, after.position, solids.radius, before.cell.height,
+                                             after.cell.height)};
     });
   else
     first = frames.read(0);
@@ -172,11 +176,21 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
     result.profiles.push_back(std::move(m.profile));
     result.intervals.push_back(m.interval);
   }
-  for (std::size_t k = result.intervals.size(); k-- > 0;) {
-    const NonAffineInterval& interval = result.intervals[k];
-    if (!interval.judged) continue;
-    if (interval.velocity >= parameters.immobilisation_ratio * std::abs(interval.shrinkage_rate)) break;
-    result.immobilisation_time = result.profiles[k].time;
+  // The stepper's rule: the first frame at which a whole window of frames has gone by and mass no longer moves between heights.
+  std::deque<Redistribution> window;
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    NonAffineInterval& interval = result.intervals[k];
+    window.push_back(measured[k].redistribution);
+    const double end = interval.time + 1e-9 * parameters.immobilisation_window;
+    double begin = result.profiles[k + 1 - window.size()].time;
+    while (window.size() > 1 && end - result.profiles[k + 2 - window.size()].time >= parameters.immobilisation_window) {
+      window.pop_front();
+      begin = result.profiles[k + 1 - window.size()].time;
+    }
+    interval.redistribution = redistribution_ratio(window);
+    if (!result.immobilisation_time && end - begin >= parameters.immobilisation_window &&
+        interval.redistribution < parameters.immobilisation_ratio)
+      result.immobilisation_time = interval.time;
   }
   return result;
 }

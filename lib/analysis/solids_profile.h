@@ -46,13 +46,13 @@ struct NonAffineInterval {
   double mass_centre_rate =
       0;  // um/ms, thickness times d(mass centre / thickness)/dt: 0 while the layer shrinks evenly
   bool judged = false;  // the thickness changed, and there were particles enough
+  double redistribution = 1;  // mass moved between heights over the window, model/redistribution.h
 };
 
 struct SolidsDevelopment {
   std::vector<SolidsProfile> profiles;
   std::vector<NonAffineInterval> intervals;  // one fewer
-  // Time of the frame from which on every judged interval stays below the ratio, ms; nothing where the last
-  // one does not.
+  // Time of the first frame at which the redistribution over the window is below the ratio, ms.
   std::optional<double> immobilisation_time;
 };
 
