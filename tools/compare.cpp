@@ -1,5 +1,7 @@
-// compare: are two HDF5 files the same within tolerances? For reference files in tests, where h5diff cannot see SI-sized
-// numbers (it takes whatever is below 2e-16 for zero when asked for a relative tolerance).
+// compare: are two HDF5 files the same within tolerances? For reference files in tests, where h5diff cannot
+// see SI-sized numbers (it takes whatever is below 2e-16 for zero when asked for a relative tolerance).
+#include "io/compare.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -10,7 +12,6 @@
 
 #include "app/tool.h"
 #include "base/error.h"
-#include "io/compare.h"
 
 namespace {
 
@@ -33,10 +34,14 @@ void declare(app::CommandLine& line, Options& options) {
   line.positional("first", options.first, "an HDF5 file");
   line.positional("second", options.second, "the file to compare it with");
   line.option("--relative", options.relative, "R, where no other tolerance is given (default 0)");
-  line.option("--absolute", options.absolute, "A, in the stored unit, where no other tolerance is given (default 0)");
-  line.option("--tolerance", options.tolerance, "PATH=R,A: tolerance of a dataset, or of all below a group; repeatable");
-  line.option("--tolerances", options.tolerances, "a file with lines \"path relative absolute\", # for comments");
-  line.option("--ignore", options.ignore, "leave out an object and all below it, or OBJECT@ATTRIBUTE; repeatable");
+  line.option("--absolute", options.absolute,
+              "A, in the stored unit, where no other tolerance is given (default 0)");
+  line.option("--tolerance", options.tolerance,
+              "PATH=R,A: tolerance of a dataset, or of all below a group; repeatable");
+  line.option("--tolerances", options.tolerances,
+              "a file with lines \"path relative absolute\", # for comments");
+  line.option("--ignore", options.ignore,
+              "leave out an object and all below it, or OBJECT@ATTRIBUTE; repeatable");
   line.flag("--ignore-version", options.ignore_version, "leave out which version of pigment wrote the files");
   line.flag("--nan-equal", options.nan_equal, "not-a-number in both files is the same");
   line.output_required(false, "a text file for what differs, instead of standard output");
@@ -59,8 +64,10 @@ std::string object_path(std::string path) {
 
 io::CompareOptions compare_options(const Options& options) {
   io::CompareOptions out;
-  for (const auto& [flag, value] : {std::pair{"--relative", options.relative}, {"--absolute", options.absolute}})
-    if (!(value >= 0)) throw InputError(fmt::format("{}: {} is not a tolerance; write a number, 0 or more", flag, value));
+  for (const auto& [flag, value] :
+       {std::pair{"--relative", options.relative}, {"--absolute", options.absolute}})
+    if (!(value >= 0))
+      throw InputError(fmt::format("{}: {} is not a tolerance; write a number, 0 or more", flag, value));
   out.tolerance = {options.relative, options.absolute};
   out.nan_equal = options.nan_equal;
   for (const auto& path : options.ignore) out.ignore.push_back(object_path(path));
@@ -78,7 +85,8 @@ io::CompareOptions compare_options(const Options& options) {
       if (!(words >> path)) continue;
       const std::string where = fmt::format("{}:{}", options.tolerances.string(), line);
       if (!(words >> relative >> absolute) || words >> more)
-        throw FileError(fmt::format("{}: \"{}\": expected a path and two numbers, relative and absolute", where, text));
+        throw FileError(
+            fmt::format("{}: \"{}\": expected a path and two numbers, relative and absolute", where, text));
       try {
         out.by_path[object_path(path)] = {number(relative, where), number(absolute, where)};
       } catch (const InputError& e) {
@@ -90,8 +98,9 @@ io::CompareOptions compare_options(const Options& options) {
     const auto equals = text.rfind('='), comma = text.rfind(',');
     if (equals == std::string::npos || comma == std::string::npos || comma < equals || equals == 0)
       throw InputError(fmt::format("--tolerance: \"{}\"; write e.g. /solids/time=1e-10,0", text));
-    out.by_path[object_path(text.substr(0, equals))] = {number(text.substr(equals + 1, comma - equals - 1), "--tolerance"),
-                                                        number(text.substr(comma + 1), "--tolerance")};
+    out.by_path[object_path(text.substr(0, equals))] = {
+        number(text.substr(equals + 1, comma - equals - 1), "--tolerance"),
+        number(text.substr(comma + 1), "--tolerance")};
   }
   return out;
 }
@@ -107,7 +116,8 @@ void run(const Options& options, const std::filesystem::path& output) {
     std::cout << report;
   } else {
     std::ofstream file(output);
-    if (!(file << report << std::flush)) throw OutputError(fmt::format("{}: cannot be written", output.string()));
+    if (!(file << report << std::flush))
+      throw OutputError(fmt::format("{}: cannot be written", output.string()));
   }
   if (!comparison.same())
     throw Error(1, fmt::format("{} and {} differ", options.first.string(), options.second.string()));

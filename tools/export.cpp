@@ -1,10 +1,11 @@
 // export: particle files for ParaView, OVITO and MDAnalysis; results as CSV.
+#include "io/export.h"
+
 #include <fmt/format.h>
 
 #include "app/tool.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "io/export.h"
 #include "io/particle_file.h"
 
 namespace {
@@ -24,9 +25,11 @@ void declare(app::CommandLine& line, Options& options) {
       "h5md (MDAnalysis, nm and ns). Or the numbers of any file of pigment as csv.",
       "pigment-export trajectory.h5 -o trajectory.xyz");
   line.positional("input", options.input, "a packing or a trajectory; for csv any file of pigment");
-  line.option("--format", options.format, "xdmf, xyz, h5md or csv; else the ending of the output says (.h5: h5md)");
+  line.option("--format", options.format,
+              "xdmf, xyz, h5md or csv; else the ending of the output says (.h5: h5md)");
   line.flag("--csv", options.csv, "the same as --format csv");
-  line.option("--dataset", options.dataset, "for csv: a dataset, or a group whose datasets stand side by side");
+  line.option("--dataset", options.dataset,
+              "for csv: a dataset, or a group whose datasets stand side by side");
   line.output_required(false, "the file to write; else the input's name with the format's ending, beside it");
 }
 
@@ -34,7 +37,8 @@ std::string format_of(const Options& options, const std::filesystem::path& outpu
   const std::string ending = output.extension().string();
   std::string format = options.format;
   if (options.csv) {
-    if (!format.empty() && format != "csv") throw InputError(fmt::format("--csv: contradicts --format {}", format));
+    if (!format.empty() && format != "csv")
+      throw InputError(fmt::format("--csv: contradicts --format {}", format));
     format = "csv";
   }
   if (format.empty()) {
@@ -49,7 +53,8 @@ std::string format_of(const Options& options, const std::filesystem::path& outpu
     else if (ending == ".csv")
       format = "csv";
     else
-      throw InputError(fmt::format("{}: its ending says no format; use .xdmf, .xyz, .h5 or .csv, or --format", output.string()));
+      throw InputError(fmt::format("{}: its ending says no format; use .xdmf, .xyz, .h5 or .csv, or --format",
+                                   output.string()));
   }
   if (format != "xdmf" && format != "xyz" && format != "h5md" && format != "csv")
     throw InputError(fmt::format("--format: \"{}\" is none; use xdmf, xyz, h5md or csv", format));
@@ -69,7 +74,8 @@ void run(const Options& options, std::filesystem::path output) {
     while (object.size() > 1 && object.back() == '/') object.pop_back();
     const std::string left_out = io::export_csv(options.input, object, output);
     if (!left_out.empty())
-      warning(fmt::format("{}: left out, for they have another number of rows: {}; --dataset writes one", output.string(), left_out));
+      warning(fmt::format("{}: left out, for they have another number of rows: {}; --dataset writes one",
+                          output.string(), left_out));
   } else {
     const io::ParticleFile particles(options.input);
     if (format == "xdmf") io::export_xdmf(particles, output);

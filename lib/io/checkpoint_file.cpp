@@ -19,7 +19,9 @@ fs::path old_path(const fs::path& output) { return sibling(output, ".checkpoint.
 void move(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
-  if (error) throw OutputError(fmt::format("{}: cannot be renamed {}: {}", from.string(), to.string(), error.message()));
+  if (error)
+    throw OutputError(
+        fmt::format("{}: cannot be renamed {}: {}", from.string(), to.string(), error.message()));
 }
 
 Checkpoint read_one(const fs::path& name) {
@@ -37,7 +39,8 @@ Checkpoint read_one(const fs::path& name) {
 }
 
 // The first input that differs; empty where none does.
-std::string difference(const std::map<std::string, std::string>& then, const std::map<std::string, std::string>& now) {
+std::string difference(const std::map<std::string, std::string>& then,
+                       const std::map<std::string, std::string>& now) {
   for (const auto& [role, hash] : now) {
     const auto found = then.find(role);
     if (found == then.end()) return fmt::format("{} was not among its inputs", role);
@@ -71,7 +74,8 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   move(fresh, newest);
 }
 
-std::optional<Checkpoint> read_checkpoint(const fs::path& output, const std::map<std::string, std::string>& inputs) {
+std::optional<Checkpoint> read_checkpoint(const fs::path& output,
+                                          const std::map<std::string, std::string>& inputs) {
   for (const fs::path& name : {checkpoint_path(output), previous_path(output)}) {
     if (!fs::exists(name)) continue;
     Checkpoint checkpoint;
@@ -83,8 +87,8 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& output, const std::map
     }
     const std::string differs = difference(checkpoint.inputs, inputs);
     if (differs.empty()) return checkpoint;
-    warning(fmt::format("{}: is not used: {}; it is kept as {}, and the run begins anew", name.string(), differs,
-                        old_path(output).filename().string()));
+    warning(fmt::format("{}: is not used: {}; it is kept as {}, and the run begins anew", name.string(),
+                        differs, old_path(output).filename().string()));
     set_checkpoint_aside(output);
     return std::nullopt;
   }
@@ -103,7 +107,8 @@ void set_checkpoint_aside(const fs::path& output) {
 
 void remove_checkpoint(const fs::path& output) {
   std::error_code ignored;
-  for (const fs::path& name : {checkpoint_path(output), previous_path(output), sibling(output, ".checkpoint.new.h5")})
+  for (const fs::path& name :
+       {checkpoint_path(output), previous_path(output), sibling(output, ".checkpoint.new.h5")})
     fs::remove(name, ignored);
 }
 

@@ -20,20 +20,28 @@ enum class Class { Number, Integer, Text, Other };
 Class class_of(h5::Type type) {
   switch (type) {
     case h5::Type::Float64:
-    case h5::Type::Float32: return Class::Number;
+    case h5::Type::Float32:
+      return Class::Number;
     case h5::Type::Int64:
-    case h5::Type::OtherInteger: return Class::Integer;
-    case h5::Type::Text: return Class::Text;
-    case h5::Type::Other: break;
+    case h5::Type::OtherInteger:
+      return Class::Integer;
+    case h5::Type::Text:
+      return Class::Text;
+    case h5::Type::Other:
+      break;
   }
   return Class::Other;
 }
 const char* name_of(Class c) {
   switch (c) {
-    case Class::Number: return "floats";
-    case Class::Integer: return "integers";
-    case Class::Text: return "text";
-    case Class::Other: break;
+    case Class::Number:
+      return "floats";
+    case Class::Integer:
+      return "integers";
+    case Class::Text:
+      return "text";
+    case Class::Other:
+      break;
   }
   return "neither numbers nor text";
 }
@@ -59,7 +67,8 @@ class Numbers {
       difference = std::numeric_limits<double>::infinity();  // no tolerance covers what is not finite
       allowed = 0;
     }
-    if (differing_++ == 0 || difference > largest_) largest_ = difference, at_ = index, a_ = a, b_ = b, allowed_ = allowed;
+    if (differing_++ == 0 || difference > largest_)
+      largest_ = difference, at_ = index, a_ = a, b_ = b, allowed_ = allowed;
   }
   // Empty where nothing differs.
   std::string report(const std::string& path, const h5::Extent& shape) const {
@@ -77,7 +86,8 @@ class Numbers {
 
 class Comparer {
  public:
-  Comparer(const std::filesystem::path& first, const std::filesystem::path& second, const CompareOptions& options)
+  Comparer(const std::filesystem::path& first, const std::filesystem::path& second,
+           const CompareOptions& options)
       : a_(first), b_(second), options_(options) {
     for (const auto& [path, tolerance] : options_.by_path)
       if (!a_.has(path) && !b_.has(path))
@@ -97,7 +107,8 @@ class Comparer {
   }
   Tolerance tolerance_of(std::string path) const {
     for (;;) {
-      if (const auto found = options_.by_path.find(path); found != options_.by_path.end()) return found->second;
+      if (const auto found = options_.by_path.find(path); found != options_.by_path.end())
+        return found->second;
       if (path == "/" || path.empty()) return options_.tolerance;
       path.erase(std::max<std::size_t>(path.rfind('/'), path.rfind('/') == 0 ? 1 : 0));
     }
@@ -109,7 +120,8 @@ class Comparer {
     const bool group_a = a_.is_group(path), group_b = b_.is_group(path);
     const bool dataset_a = !group_a && a_.is_dataset(path), dataset_b = !group_b && b_.is_dataset(path);
     if (group_a != group_b || dataset_a != dataset_b) {
-      differ(fmt::format("{}: a {} against a {}", path, group_a ? "group" : "dataset", group_b ? "group" : "dataset"));
+      differ(fmt::format("{}: a {} against a {}", path, group_a ? "group" : "dataset",
+                         group_b ? "group" : "dataset"));
       return;
     }
     compare_attributes(path);
@@ -150,7 +162,8 @@ class Comparer {
       const auto number_a = a_.number_attribute(object, name), number_b = b_.number_attribute(object, name);
       if (text_a && text_b) {
         if (*text_a != *text_b)
-          differ(fmt::format("{}: \"{}\" against \"{}\"", path, fmt::join(*text_a, "\", \""), fmt::join(*text_b, "\", \"")));
+          differ(fmt::format("{}: \"{}\" against \"{}\"", path, fmt::join(*text_a, "\", \""),
+                             fmt::join(*text_b, "\", \"")));
       } else if (number_a && number_b) {
         if (number_a->size() != number_b->size()) {
           differ(fmt::format("{}: {} numbers against {}", path, number_a->size(), number_b->size()));
@@ -160,7 +173,8 @@ class Comparer {
         for (std::size_t i = 0; i < number_a->size(); ++i) numbers.add((*number_a)[i], (*number_b)[i]);
         differ(numbers.report(path, number_a->size() == 1 ? h5::Extent{} : h5::Extent{number_a->size()}));
       } else {
-        const Class class_a = class_of(a_.attribute_type(object, name)), class_b = class_of(b_.attribute_type(object, name));
+        const Class class_a = class_of(a_.attribute_type(object, name)),
+                    class_b = class_of(b_.attribute_type(object, name));
         differ(fmt::format("{}: {} against {}", path, name_of(class_a), name_of(class_b)));
       }
     }
@@ -188,11 +202,14 @@ class Comparer {
     if (differing == 0) return;
     // Long texts: from the line where they part.
     const std::string &a = in_a[first], &b = in_b[first];
-    const auto parting = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+    const auto parting =
+        static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
     const std::size_t line = parting == 0 ? 0 : a.rfind('\n', parting - 1) + 1;
-    const auto excerpt = [&](const std::string& text) { return text.substr(line, std::min<std::size_t>(text.find('\n', line) - line, 120)); };
-    differ(fmt::format("{}{}: \"{}\" against \"{}\"; {} of {} texts differ", path, index_text(first, shape), excerpt(a),
-                       excerpt(b), differing, in_a.size()));
+    const auto excerpt = [&](const std::string& text) {
+      return text.substr(line, std::min<std::size_t>(text.find('\n', line) - line, 120));
+    };
+    differ(fmt::format("{}{}: \"{}\" against \"{}\"; {} of {} texts differ", path, index_text(first, shape),
+                       excerpt(a), excerpt(b), differing, in_a.size()));
   }
 
   void compare_numbers(const std::string& path, const h5::Extent& shape, Class kind) {
@@ -205,15 +222,16 @@ class Comparer {
       for (std::size_t i = 0; i < in_a.size(); ++i)
         if (in_a[i] != in_b[i] && differing++ == 0) first = i;
       if (differing > 0)
-        differ(fmt::format("{}{}: {} against {}; {} of {} values differ", path, index_text(first, shape), in_a[first],
-                           in_b[first], differing, in_a.size()));
+        differ(fmt::format("{}{}: {} against {}; {} of {} values differ", path, index_text(first, shape),
+                           in_a[first], in_b[first], differing, in_a.size()));
       return;
     }
     if (shape.empty() || h5::element_count(shape) <= block_values) {
       const auto in_a = a_.doubles(path), in_b = b_.doubles(path);
       for (std::size_t i = 0; i < in_a.size(); ++i) numbers.add(in_a[i], in_b[i]);
     } else {
-      const std::size_t row = h5::element_count(shape) / shape[0], rows = std::max<std::size_t>(1, block_values / row);
+      const std::size_t row = h5::element_count(shape) / shape[0],
+                        rows = std::max<std::size_t>(1, block_values / row);
       for (std::size_t first = 0; first < shape[0]; first += rows) {
         const std::size_t count = std::min(rows, shape[0] - first);
         const auto in_a = a_.rows(path, first, count), in_b = b_.rows(path, first, count);

@@ -1,6 +1,6 @@
 #pragma once
-// Two HDF5 files, object by object: what is there, type, shape, attributes, and every number within a stated tolerance.
-// Numbers are compared as they are stored (SI), whatever their size: 1e-21 and 2e-21 differ.
+// Two HDF5 files, object by object: what is there, type, shape, attributes, and every number within a stated
+// tolerance. Numbers are compared as they are stored (SI), whatever their size: 1e-21 and 2e-21 differ.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -14,10 +14,10 @@ struct Tolerance {
 };
 
 struct CompareOptions {
-  Tolerance tolerance;                        // where no other is given
-  std::map<std::string, Tolerance> by_path;   // dataset, or a group for all below it; the longest path wins
-  std::vector<std::string> ignore;            // object (with all below it), or OBJECT@ATTRIBUTE
-  bool nan_equal = false;                     // not-a-number in both files is the same
+  Tolerance tolerance;                       // where no other is given
+  std::map<std::string, Tolerance> by_path;  // dataset, or a group for all below it; the longest path wins
+  std::vector<std::string> ignore;           // object (with all below it), or OBJECT@ATTRIBUTE
+  bool nan_equal = false;                    // not-a-number in both files is the same
 };
 
 struct Comparison {
@@ -26,6 +26,7 @@ struct Comparison {
 };
 
 // Throws FileError where a file cannot be read, InputError for a tolerance of a path that neither file has.
-Comparison compare_files(const std::filesystem::path& first, const std::filesystem::path& second, const CompareOptions&);
+Comparison compare_files(const std::filesystem::path& first, const std::filesystem::path& second,
+                         const CompareOptions&);
 
 }  // namespace pigment::io

@@ -45,7 +45,8 @@ std::string default_object(const h5::InputFile& file) {
   if (file.is_group("/observables") && !file.children("/observables").empty()) return "/observables";
   if (file.is_group("/particles/layer")) return "/particles/layer";
   if (!kind.empty() && file.is_group("/" + kind)) return "/" + kind;
-  file.fail("/", fmt::format("say which group or dataset to write; there is {}", fmt::join(file.children("/"), ", ")));
+  file.fail("/", fmt::format("say which group or dataset to write; there is {}",
+                             fmt::join(file.children("/"), ", ")));
 }
 
 std::string last_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -71,7 +72,8 @@ std::vector<std::vector<Column>> tables_below(const h5::InputFile& file, const s
       add(columns_of(file, object + "/" + first, first));
     } else {
       for (const auto& name : names)  // that of the first time-dependent element
-        if (const std::string element = object + "/" + name; is_curve(file, element) && file.is_dataset(element + "/" + first)) {
+        if (const std::string element = object + "/" + name;
+            is_curve(file, element) && file.is_dataset(element + "/" + first)) {
           add(columns_of(file, element + "/" + first, first));
           break;
         }
@@ -82,7 +84,8 @@ std::vector<std::vector<Column>> tables_below(const h5::InputFile& file, const s
     if (name == "time" || name == "step") continue;
     if (file.is_dataset(path))
       add(columns_of(file, path, name));
-    else if (is_curve(file, path) || (file.is_dataset(path + "/value") && file.shape(path + "/value").size() == 3))
+    else if (is_curve(file, path) ||
+             (file.is_dataset(path + "/value") && file.shape(path + "/value").size() == 3))
       add(columns_of(file, path + "/value", name));
   }
   return tables;
@@ -90,7 +93,8 @@ std::vector<std::vector<Column>> tables_below(const h5::InputFile& file, const s
 
 }  // namespace
 
-std::string export_csv(const std::filesystem::path& input, const std::string& object, const std::filesystem::path& output) {
+std::string export_csv(const std::filesystem::path& input, const std::string& object,
+                       const std::filesystem::path& output) {
   const h5::InputFile file(input);
   const std::string path = object.empty() ? default_object(file) : object;
   if (!file.has(path)) file.fail(path, "is missing");
@@ -99,8 +103,10 @@ std::string export_csv(const std::filesystem::path& input, const std::string& ob
   // The rows that most of the datasets have.
   std::size_t rows = 0, votes = 0;
   for (const auto& table : tables) {
-    const auto same = static_cast<std::size_t>(std::count_if(
-        tables.begin(), tables.end(), [&](const auto& t) { return t[0].values.size() == table[0].values.size(); }));
+    const auto same =
+        static_cast<std::size_t>(std::count_if(tables.begin(), tables.end(), [&](const auto& t) {
+          return t[0].values.size() == table[0].values.size();
+        }));
     if (same > votes) votes = same, rows = table[0].values.size();
   }
   std::string left_out, line;
@@ -116,7 +122,8 @@ std::string export_csv(const std::filesystem::path& input, const std::string& ob
   out.write(line + "\n");
   for (std::size_t i = 0; i < rows; ++i) {
     line.clear();
-    for (const auto* column : columns) fmt::format_to(std::back_inserter(line), "{}{}", column == columns[0] ? "" : ",", column->values[i]);
+    for (const auto* column : columns)
+      fmt::format_to(std::back_inserter(line), "{}{}", column == columns[0] ? "" : ",", column->values[i]);
     out.write(line + "\n");
   }
   out.commit();

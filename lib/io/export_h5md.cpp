@@ -27,7 +27,8 @@ void export_h5md(const ParticleFile& particles, const std::filesystem::path& out
   auto step = file.create_rows(group + "/position/step", {frames}, h5::Type::Int64);
   auto time = file.create_rows(group + "/position/time", {frames}, h5::Type::Float64);
   file.attribute(group + "/position/time", "unit", std::string("ns"));
-  const auto element = [&](const std::string& path, const h5::Extent& shape, const char* unit, h5::Type stored) {
+  const auto element = [&](const std::string& path, const h5::Extent& shape, const char* unit,
+                           h5::Type stored) {
     auto rows = file.create_rows(path + "/value", shape, stored);
     if (unit != nullptr) file.attribute(path + "/value", "unit", std::string(unit));
     if (path != group + "/position") {
@@ -64,7 +65,8 @@ void export_h5md(const ParticleFile& particles, const std::filesystem::path& out
     step.append(&frame.step, 1);
     time.append(&nanoseconds, 1);
     append(position, frame.position, nm_per_um);
-    append(edges, {{frame.cell.width_x, 0, 0}, {0, frame.cell.width_y, 0}, {0, 0, frame.cell.height}}, nm_per_um);
+    append(edges, {{frame.cell.width_x, 0, 0}, {0, frame.cell.width_y, 0}, {0, 0, frame.cell.height}},
+           nm_per_um);
     if (moving) append(velocity, frame.velocity, nm_per_ns);
     radius.append(radius_nm.data(), 1);
   }

@@ -14,11 +14,20 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -42,16 +51,18 @@ class Pointer {
     const h5::Type type = file_.type(path);
     const bool whole = shape.size() == rank;
     const bool real = type == h5::Type::Float64 || type == h5::Type::Float32;
-    const std::string all = fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}</DataItem>",
-                                        fmt::join(shape, " "), real ? "Float" : "Int", type == h5::Type::Float32 ? 4 : 8,
-                                        name_, path);
+    const std::string all = fmt::format(
+        "<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}</DataItem>",
+        fmt::join(shape, " "), real ? "Float" : "Int", type == h5::Type::Float32 ? 4 : 8, name_, path);
     if (whole) return all;
     h5::Extent start(shape.size(), 0), stride(shape.size(), 1), count = shape;
     start[0] = frame;
     count[0] = 1;
-    return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\"><DataItem Dimensions=\"3 {}\" Format=\"XML\">{} {} {}</DataItem>{}</DataItem>",
-                       fmt::join(count.begin() + 1, count.end(), " "), shape.size(), fmt::join(start, " "),
-                       fmt::join(stride, " "), fmt::join(count, " "), all);
+    return fmt::format(
+        "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\"><DataItem Dimensions=\"3 {}\" Format=\"XML\">{} "
+        "{} {}</DataItem>{}</DataItem>",
+        fmt::join(count.begin() + 1, count.end(), " "), shape.size(), fmt::join(start, " "),
+        fmt::join(stride, " "), fmt::join(count, " "), all);
   }
 
  private:
@@ -61,15 +72,18 @@ class Pointer {
 
 // Numbers in the text itself. Nine digits: more than a picture shows.
 std::string inline_vectors(const Vec3Array& vectors, Dimension dimension) {
-  std::string text = fmt::format("<DataItem Dimensions=\"{} 3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">\n", vectors.size());
+  std::string text = fmt::format(
+      "<DataItem Dimensions=\"{} 3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">\n", vectors.size());
   for (const auto& v : vectors)
-    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}\n", to_si(dimension, v.x()), to_si(dimension, v.y()),
-                   to_si(dimension, v.z()));
+    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}\n", to_si(dimension, v.x()),
+                   to_si(dimension, v.y()), to_si(dimension, v.z()));
   return text + "</DataItem>";
 }
 template <typename Number>
 std::string inline_numbers(const std::vector<Number>& numbers, double si, const char* type) {
-  std::string text = fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"8\" Format=\"XML\">\n", numbers.size(), type);
+  std::string text =
+      fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"8\" Format=\"XML\">\n",
+                  numbers.size(), type);
   for (const Number n : numbers) {
     if constexpr (std::is_floating_point_v<Number>)
       fmt::format_to(std::back_inserter(text), "{:.9g}\n", n * si);
@@ -83,14 +97,16 @@ std::string inline_numbers(const std::vector<Number>& numbers, double si, const 
 
 void export_xdmf(const ParticleFile& particles, const std::filesystem::path& output) {
   const auto folder = std::filesystem::absolute(output).parent_path();
-  const std::string name = std::filesystem::proximate(std::filesystem::absolute(particles.path()), folder).string();
+  const std::string name =
+      std::filesystem::proximate(std::filesystem::absolute(particles.path()), folder).string();
   const h5::InputFile raw(particles.path());
   const Pointer pointer(raw, name);
   const Particles& p = particles.particles();
   const std::size_t count = p.size();
 
   const auto attribute = [](const std::string& attribute_name, const char* type, const std::string& item) {
-    return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n{}\n</Attribute>\n", attribute_name, type, item);
+    return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n{}\n</Attribute>\n",
+                       attribute_name, type, item);
   };
   // The same in every frame.
   const std::string radius = pointer.dataset(group + "/radius", Dimension::Length);
@@ -99,14 +115,19 @@ void export_xdmf(const ParticleFile& particles, const std::filesystem::path& out
     return there ? pointer.item(path, 0, 1) : inline_numbers(numbers, 1, "Int");
   };
   const std::string fixed =
-      attribute("radius", "Scalar", radius.empty() ? inline_numbers(p.radius, to_si(Dimension::Length, 1), "Float") : pointer.item(radius, 0, 1)) +
+      attribute("radius", "Scalar",
+                radius.empty() ? inline_numbers(p.radius, to_si(Dimension::Length, 1), "Float")
+                               : pointer.item(radius, 0, 1)) +
       attribute("species", "Scalar", whole_numbers(group + "/species", p.species)) +
       attribute("id", "Scalar", whole_numbers(group + "/id", p.id));
   const std::string position = pointer.dataset(group + "/position", Dimension::Length);
 
   TextFile file(output);
-  file.write("<?xml version=\"1.0\"?>\n<!-- Open with ParaView's \"XDMF Reader\"; draw Point Gaussian or Glyph by radius. SI units. -->\n"
-             "<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"layer\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
+  file.write(
+      "<?xml version=\"1.0\"?>\n<!-- Open with ParaView's \"XDMF Reader\"; draw Point Gaussian or Glyph by "
+      "radius. SI units. -->\n"
+      "<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"layer\" GridType=\"Collection\" "
+      "CollectionType=\"Temporal\">\n");
   for (std::size_t f = 0; f < particles.frame_count(); ++f) {
     Frame frame = particles.frame(f);
     bool inside = true;
@@ -115,15 +136,19 @@ void export_xdmf(const ParticleFile& particles, const std::filesystem::path& out
       inside = inside && wrapped == x;
       x = wrapped;
     }
-    file.write(fmt::format("<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n"
-                           "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n<Geometry GeometryType=\"XYZ\">\n{}\n</Geometry>\n",
-                           f, to_si(Dimension::Time, frame.time), count,
-                           inside && !position.empty() ? pointer.item(position, f, 2) : inline_vectors(frame.position, Dimension::Length)));
+    file.write(
+        fmt::format("<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n"
+                    "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n<Geometry "
+                    "GeometryType=\"XYZ\">\n{}\n</Geometry>\n",
+                    f, to_si(Dimension::Time, frame.time), count,
+                    inside && !position.empty() ? pointer.item(position, f, 2)
+                                                : inline_vectors(frame.position, Dimension::Length)));
     file.write(fixed);
     const auto moving = [&](const char* element, const Vec3Array& vectors, Dimension dimension) {
       if (vectors.empty()) return;
       const std::string path = pointer.dataset(group + "/" + element, dimension);
-      file.write(attribute(element, "Vector", path.empty() ? inline_vectors(vectors, dimension) : pointer.item(path, f, 2)));
+      file.write(attribute(element, "Vector",
+                           path.empty() ? inline_vectors(vectors, dimension) : pointer.item(path, f, 2)));
     };
     moving("velocity", frame.velocity, Dimension::Velocity);
     moving("angular_velocity", frame.angular_velocity, Dimension::AngularVelocity);

@@ -13,14 +13,15 @@ namespace {
 std::optional<double> major_version(const h5::InputFile& file) {
   if (const auto numbers = file.number_attribute("/pigment", "format_version"); numbers && !numbers->empty())
     return numbers->front();
-  if (const auto text = file.text_attribute("/pigment", "format_version")) return std::strtod(text->c_str(), nullptr);
+  if (const auto text = file.text_attribute("/pigment", "format_version"))
+    return std::strtod(text->c_str(), nullptr);
   return std::nullopt;
 }
 
 }  // namespace
 
-void write_header(h5::OutputFile& file, const std::string& kind, const std::map<std::string, std::string>& attributes,
-                  const Provenance& provenance) {
+void write_header(h5::OutputFile& file, const std::string& kind,
+                  const std::map<std::string, std::string>& attributes, const Provenance& provenance) {
   file.group("/pigment");
   file.attribute("/pigment", "format_version", std::vector<std::int64_t>{format_major, format_minor});
   file.attribute("/pigment", "kind", kind);
@@ -37,8 +38,9 @@ Header read_header(const h5::InputFile& file) {
   Header header;
   if (file.is_group("/pigment")) {
     if (const auto major = major_version(file); major && *major >= format_major + 1)
-      file.fail("/pigment", fmt::format("format version {} is newer than this program reads ({}.{}); use a newer pigment",
-                                        *major, format_major, format_minor));
+      file.fail("/pigment",
+                fmt::format("format version {} is newer than this program reads ({}.{}); use a newer pigment",
+                            *major, format_major, format_minor));
     for (const auto& name : file.attributes("/pigment")) {
       const auto text = file.text_attribute("/pigment", name);
       if (!text) continue;

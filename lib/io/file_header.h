@@ -11,8 +11,8 @@ namespace pigment::io {
 
 inline constexpr std::int64_t format_major = 1, format_minor = 0;
 
-void write_header(h5::OutputFile&, const std::string& kind, const std::map<std::string, std::string>& attributes,
-                  const Provenance&);
+void write_header(h5::OutputFile&, const std::string& kind,
+                  const std::map<std::string, std::string>& attributes, const Provenance&);
 
 struct Header {
   std::string kind;                               // empty: not made by a pigment tool

@@ -12,7 +12,8 @@ namespace pigment::io {
 Dimension dimension_of_unit(const std::string& unit);
 // The dataset's `unit`; empty where it has none. Throws FileError where it is there and empty.
 std::string unit_of(const h5::InputFile&, const std::string& path);
-// Engine value = factor * stored + offset. No unit means SI; throws FileError for a unit of another dimension, or of none.
+// Engine value = factor * stored + offset. No unit means SI; throws FileError for a unit of another
+// dimension, or of none.
 struct FileToEngine {
   double factor = 1, offset = 0;
 };
@@ -21,11 +22,11 @@ FileToEngine file_to_engine(const h5::InputFile&, const std::string& path, Dimen
 // Throws FileError where a number is not finite.
 void require_finite(const h5::InputFile&, const std::string& path, const std::vector<double>&);
 std::vector<double> read_quantity(const h5::InputFile&, const std::string& path, Dimension);
-std::vector<double> read_quantity_rows(const h5::InputFile&, const std::string& path, Dimension, std::size_t first,
-                                       std::size_t count);
+std::vector<double> read_quantity_rows(const h5::InputFile&, const std::string& path, Dimension,
+                                       std::size_t first, std::size_t count);
 
 void write_unit(h5::OutputFile&, const std::string& path, Dimension);
-void write_quantity(h5::OutputFile&, const std::string& path, const h5::Extent&, const std::vector<double>& engine,
-                    Dimension, h5::Type stored = h5::Type::Float64);
+void write_quantity(h5::OutputFile&, const std::string& path, const h5::Extent&,
+                    const std::vector<double>& engine, Dimension, h5::Type stored = h5::Type::Float64);
 
 }  // namespace pigment::io

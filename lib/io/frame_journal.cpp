@@ -15,9 +15,12 @@ namespace {
 
 // A record: magic, length of the payload, SHA-256 of the payload in hexadecimal, payload.
 constexpr char magic[] = "pigment1";
-constexpr std::size_t magic_length = 8, checksum_length = 64, head_length = magic_length + 8 + checksum_length;
+constexpr std::size_t magic_length = 8, checksum_length = 64,
+                      head_length = magic_length + 8 + checksum_length;
 
-void put(std::string& out, const void* bytes, std::size_t count) { out.append(static_cast<const char*>(bytes), count); }
+void put(std::string& out, const void* bytes, std::size_t count) {
+  out.append(static_cast<const char*>(bytes), count);
+}
 void put_vectors(std::string& out, const Vec3Array& vectors, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 v = i < vectors.size() ? vectors[i] : Vec3(Vec3::Zero());
@@ -46,9 +49,11 @@ FrameJournal::FrameJournal(std::filesystem::path file, const std::string& owner,
   frame_length_ = sizeof(double) * (5 + 9 * particles + observables);
   const bool there = std::filesystem::exists(file_);
   if (keep_frames > 0 && !there)
-    throw FileError(fmt::format("{}: is missing, the checkpoint goes on from it; --restart begins the run anew", file_.string()));
+    throw FileError(fmt::format(
+        "{}: is missing, the checkpoint goes on from it; --restart begins the run anew", file_.string()));
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw OutputError(fmt::format("{}: cannot be written: {}", file_.string(), std::strerror(errno)));
+  if (descriptor_ < 0)
+    throw OutputError(fmt::format("{}: cannot be written: {}", file_.string(), std::strerror(errno)));
   try {
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw OutputError(fmt::format("{}: another run is writing to it", file_.string()));
@@ -61,8 +66,9 @@ FrameJournal::FrameJournal(std::filesystem::path file, const std::string& owner,
         throw FileError(fmt::format("{}: belongs to another run; --restart begins anew", file_.string()));
       for (std::size_t frame = 0; frame < keep_frames; ++frame)
         if (record(frame_length_, frame_offset(frame)).empty())
-          throw FileError(fmt::format("{}: holds {} whole frames, the checkpoint goes on from {}; --restart begins the run anew",
-                                      file_.string(), frame, keep_frames));
+          throw FileError(fmt::format(
+              "{}: holds {} whole frames, the checkpoint goes on from {}; --restart begins the run anew",
+              file_.string(), frame, keep_frames));
       if (::ftruncate(descriptor_, static_cast<off_t>(frame_offset(keep_frames))) != 0)
         throw OutputError(fmt::format("{}: cannot be written: {}", file_.string(), std::strerror(errno)));
       frames_ = keep_frames;
@@ -85,7 +91,8 @@ std::string FrameJournal::record(std::uint64_t length, std::uint64_t offset) con
   std::string bytes(head_length + length, '\0');
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t got = ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    const ssize_t got =
+        ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return {};
     done += static_cast<std::size_t>(got);
@@ -106,7 +113,8 @@ void FrameJournal::write(const std::string& payload) {
   const off_t begin = ::lseek(descriptor_, 0, SEEK_END);
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t put_now = ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done, begin + static_cast<off_t>(done));
+    const ssize_t put_now =
+        ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done, begin + static_cast<off_t>(done));
     if (put_now < 0 && errno == EINTR) continue;
     if (put_now <= 0) {
       const int error = errno;
@@ -135,7 +143,9 @@ void FrameJournal::append(const Frame& frame, const std::vector<double>& observa
 
 void FrameJournal::read(std::size_t index, Frame& frame, std::vector<double>& observables) const {
   const std::string payload = record(frame_length_, frame_offset(index));
-  if (payload.empty()) throw FileError(fmt::format("{}: frame {} is damaged; --restart begins the run anew", file_.string(), index));
+  if (payload.empty())
+    throw FileError(
+        fmt::format("{}: frame {} is damaged; --restart begins the run anew", file_.string(), index));
   Cursor cursor{payload.data()};
   cursor.take(&frame.step, sizeof frame.step);
   for (double* number : {&frame.time, &frame.cell.width_x, &frame.cell.width_y, &frame.cell.height})

@@ -1,7 +1,8 @@
 #pragma once
-// NAME.frames.part: an append-only file of records, each with its length and a checksum; a record torn by a kill is
-// recognised and dropped. The first record says what the journal belongs to; every other is one frame of fixed length.
-// Numbers lie in it as in memory: it is read by the machine that wrote it, until the run is over.
+// NAME.frames.part: an append-only file of records, each with its length and a checksum; a record torn by a
+// kill is recognised and dropped. The first record says what the journal belongs to; every other is one frame
+// of fixed length. Numbers lie in it as in memory: it is read by the machine that wrote it, until the run is
+// over.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,10 +14,10 @@ namespace pigment::io {
 
 class FrameJournal {
  public:
-  // keep_frames > 0: goes on with the journal that is there, cut to so many frames; throws FileError where it holds
-  // fewer whole ones, or belongs to another run. 0: begins anew. `owner` tells runs apart.
-  FrameJournal(std::filesystem::path file, const std::string& owner, std::size_t particles, std::size_t observables,
-               std::size_t keep_frames);
+  // keep_frames > 0: goes on with the journal that is there, cut to so many frames; throws FileError where it
+  // holds fewer whole ones, or belongs to another run. 0: begins anew. `owner` tells runs apart.
+  FrameJournal(std::filesystem::path file, const std::string& owner, std::size_t particles,
+               std::size_t observables, std::size_t keep_frames);
   ~FrameJournal();
   FrameJournal(const FrameJournal&) = delete;
   FrameJournal& operator=(const FrameJournal&) = delete;
@@ -27,7 +28,8 @@ class FrameJournal {
   void remove();
 
  private:
-  std::string record(std::uint64_t length, std::uint64_t offset) const;  // its payload; empty where it is torn
+  std::string record(std::uint64_t length,
+                     std::uint64_t offset) const;  // its payload; empty where it is torn
   void write(const std::string& payload);
   std::uint64_t frame_offset(std::size_t index) const;
   std::filesystem::path file_;

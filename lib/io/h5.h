@@ -1,10 +1,10 @@
 #pragma once
-// The one place that speaks to HDF5. Files written here carry no times (equal content gives equal bytes), checksums on
-// every chunk and on every object header, and stand under their final name only when whole.
+// The one place that speaks to HDF5. Files written here carry no times (equal content gives equal bytes),
+// checksums on every chunk and on every object header, and stand under their final name only when whole.
 //
-// Values are doubles or 64-bit integers in memory whatever the file stores; no units here (io/file_units.h has them).
-// Errors: FileError for what is read, OutputError for what is written, each with the reason that HDF5 gives.
-// Not for several threads at once.
+// Values are doubles or 64-bit integers in memory whatever the file stores; no units here (io/file_units.h
+// has them). Errors: FileError for what is read, OutputError for what is written, each with the reason that
+// HDF5 gives. Not for several threads at once.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -86,11 +86,12 @@ class OutputFile {
   Rows create_rows(const std::string& path, const Extent&, Type stored);
   void link(const std::string& existing, const std::string& path);  // hard link
 
-  // Attributes of an existing object. Text is stored with variable length, so that readers get a string; fixed is what
-  // H5MD asks for in its own group and in `boundary`.
+  // Attributes of an existing object. Text is stored with variable length, so that readers get a string;
+  // fixed is what H5MD asks for in its own group and in `boundary`.
   void attribute(const std::string& object, const std::string& name, const std::string& text);
   void fixed_attribute(const std::string& object, const std::string& name, const std::string& text);
-  void fixed_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);
+  void fixed_attribute(const std::string& object, const std::string& name,
+                       const std::vector<std::string>& texts);
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, const std::vector<std::int64_t>& values);
@@ -102,8 +103,8 @@ class OutputFile {
   [[noreturn]] void fail(const std::string& what) const;
   Handle create(const std::string& path, const Extent&, std::int64_t type) const;
   void make_parent(const std::string& path);
-  void raw_attribute(const std::string& object, const std::string& name, std::int64_t type, std::int64_t space,
-                     const void* value) const;
+  void raw_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                     std::int64_t space, const void* value) const;
   std::filesystem::path final_, part_;
   Handle file_;
 };
@@ -116,7 +117,7 @@ class InputFile {
   bool has(const std::string& path) const;
   bool is_group(const std::string& path) const;
   bool is_dataset(const std::string& path) const;
-  std::vector<std::string> children(const std::string& group) const;  // names, sorted
+  std::vector<std::string> children(const std::string& group) const;     // names, sorted
   std::vector<std::string> attributes(const std::string& object) const;  // names, sorted
 
   Extent shape(const std::string& dataset) const;
@@ -131,8 +132,10 @@ class InputFile {
   Type attribute_type(const std::string& object, const std::string& name) const;
   // Nothing where the attribute is absent or of another kind.
   std::optional<std::string> text_attribute(const std::string& object, const std::string& name) const;
-  std::optional<std::vector<std::string>> texts_attribute(const std::string& object, const std::string& name) const;
-  std::optional<std::vector<double>> number_attribute(const std::string& object, const std::string& name) const;
+  std::optional<std::vector<std::string>> texts_attribute(const std::string& object,
+                                                          const std::string& name) const;
+  std::optional<std::vector<double>> number_attribute(const std::string& object,
+                                                      const std::string& name) const;
 
   // "packing.h5: /particles/layer/radius: what"
   [[noreturn]] void fail(const std::string& path, const std::string& what) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by h5_input.cpp and h5_output.cpp only: HDF5's own header must not reach further.
+// Shared by h5_*.cpp only: HDF5's own header must not reach further.
 #include <hdf5.h>
 
 #include <limits>
@@ -23,6 +23,9 @@ inline Handle simple_space(const Extent& shape) {
 }
 Handle text_type(std::size_t length, bool ascii = false);  // fixed length, or H5T_VARIABLE; else UTF-8
 Type type_of(hid_t datatype);
+
+// False where the text in the file is damaged in a way that HDF5 does not survive.
+bool heaps_are_sound(const std::filesystem::path&);
 
 // What an integer reads as where its chunk is lost (floats read as not-a-number).
 inline constexpr std::int64_t lost_integer = std::numeric_limits<std::int64_t>::min();

@@ -1,19 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <string_view>
 
 #include "base/error.h"
 #include "io/h5_detail.h"
 
 namespace pigment::io::h5 {
 namespace {
-
-herr_t keep_innermost(unsigned n, const H5E_error2_t* entry, void* out) {
-  if (n == 0 && entry->desc != nullptr) *static_cast<std::string*>(out) = entry->desc;
-  return 0;
-}
 
 herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* out) {
   static_cast<std::vector<std::string>*>(out)->emplace_back(name);
@@ -30,42 +23,6 @@ Extent extent_of(hid_t space) {
   std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space, dims.data(), nullptr);
   return {dims.begin(), dims.end()};
-}
-
-// Text of variable length lies in "global heap collections", the one part of these files without a checksum, and HDF5
-// 1.10 trusts the lengths in them: a damaged one makes it write past its buffer. So the collections near the beginning,
-// where ours are, are walked through before HDF5 reads them. HDF5 file format specification, section III.E.
-bool heaps_are_sound(const std::filesystem::path& name) {
-  std::ifstream file(name, std::ios::binary);
-  std::string bytes(1 << 20, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  const auto number = [&](std::size_t at, std::size_t width) {  // little-endian
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < width; ++i)
-      value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
-    return value;
-  };
-  constexpr std::string_view signature("GCOL\1\0\0\0", 8);
-  constexpr std::size_t header = 16;
-  for (std::size_t begin = bytes.find(signature); begin != std::string::npos; begin = bytes.find(signature, begin + 8)) {
-    if (begin + header > bytes.size()) break;
-    const std::uint64_t size = number(begin + 8, 8);
-    if (size < header || size > bytes.size() - begin) return size > bytes.size() && bytes.size() == 1 << 20;
-    std::size_t at = begin + header;
-    const std::size_t end = begin + size;
-    while (at + header <= end) {
-      const std::uint64_t index = number(at, 2), length = number(at + 8, 8);
-      if (index == 0) {  // what is left free, its own header included
-        if (length != end - at) return false;
-        at = end;
-      } else {
-        if (length > end - at - header) return false;
-        at += header + (length + 7) / 8 * 8;
-      }
-    }
-  }
-  return true;
 }
 
 // Reads text of either kind of length through `read(memory type, buffer)`; `stored` is its type in the file.
@@ -98,55 +55,6 @@ std::optional<std::vector<std::string>> read_texts(hid_t stored, hid_t space, co
 
 }  // namespace
 
-std::size_t element_count(const Extent& shape) {
-  std::size_t count = 1;
-  for (const auto edge : shape) count *= edge;
-  return count;
-}
-
-std::string to_string(const Extent& shape) {
-  return shape.empty() ? std::string("a scalar") : fmt::format("[{}]", fmt::join(shape, ", "));
-}
-
-const char* name(Type type) {
-  switch (type) {
-    case Type::Float64: return "64-bit float";
-    case Type::Float32: return "float";
-    case Type::Int64: return "64-bit integer";
-    case Type::OtherInteger: return "integer";
-    case Type::Text: return "text";
-    case Type::Other: break;
-  }
-  return "something else than numbers or text";
-}
-
-std::string reason() {
-  std::string why = "HDF5 gives no reason";
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &why);
-  if (why.find("unable to lock") != std::string::npos)
-    why += "; another program has the file open, or the file system has no locks (then set HDF5_USE_FILE_LOCKING=FALSE)";
-  return why;
-}
-
-Handle text_type(std::size_t length, bool ascii) {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), length);
-  H5Tset_cset(type.id(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
-  if (length != H5T_VARIABLE) H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
-  return type;
-}
-
-Type type_of(hid_t datatype) {
-  switch (H5Tget_class(datatype)) {
-    case H5T_FLOAT: return H5Tget_size(datatype) == 8 ? Type::Float64 : Type::Float32;
-    case H5T_INTEGER:
-      return H5Tget_size(datatype) == 8 && H5Tget_sign(datatype) == H5T_SGN_2 ? Type::Int64 : Type::OtherInteger;
-    case H5T_ENUM: return Type::OtherInteger;
-    case H5T_STRING: return Type::Text;
-    default: return Type::Other;
-  }
-}
-
 InputFile::InputFile(std::filesystem::path name) : name_(std::move(name)) {
   silence();
   std::error_code error;
@@ -157,12 +65,14 @@ InputFile::InputFile(std::filesystem::path name) : name_(std::move(name)) {
     throw FileError(fmt::format("{}: is a folder, expected an HDF5 file", name_.string()));
   const Handle access = property_list(H5P_FILE_ACCESS);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
-  if (!heaps_are_sound(name_)) throw FileError(fmt::format("{}: is damaged: its text cannot be read", name_.string()));
+  if (!heaps_are_sound(name_))
+    throw FileError(fmt::format("{}: is damaged: its text cannot be read", name_.string()));
   file_ = Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (file_) return;
   const std::string why = reason();
   const bool recognised = H5Fis_hdf5(name_.c_str()) > 0;
-  const bool locked = why.find("unable to lock") != std::string::npos || why.find("ermission") != std::string::npos;
+  const bool locked =
+      why.find("unable to lock") != std::string::npos || why.find("ermission") != std::string::npos;
   throw FileError(fmt::format("{}: {}: {}", name_.string(),
                               recognised || locked ? "cannot be opened" : "is not a whole HDF5 file", why));
 }
@@ -171,8 +81,9 @@ void InputFile::fail(const std::string& path, const std::string& what) const {
   throw FileError(fmt::format("{}: {}: {}", name_.string(), path, what));
 }
 
-// What a path leads to: H5I_GROUP, H5I_DATASET, ...; H5I_BADID where there is nothing, or a soft link that leads nowhere.
-// Nothing is what the absence of an optional object looks like, so damage must not look the same.
+// What a path leads to: H5I_GROUP, H5I_DATASET, ...; H5I_BADID where there is nothing, or a soft link that
+// leads nowhere. Nothing is what the absence of an optional object looks like, so damage must not look the
+// same.
 int InputFile::object_kind(const std::string& path) const {
   int kind = H5I_GROUP;  // the root's
   for (std::size_t end = 0; end != std::string::npos && path != "/";) {
@@ -184,7 +95,8 @@ int InputFile::object_kind(const std::string& path) const {
     H5L_info_t link;
     if (there < 0 || H5Lget_info(file_.id(), part.c_str(), &link, H5P_DEFAULT) < 0)
       fail(part, "cannot be looked up, the file is damaged: " + reason());
-    if (link.type != H5L_TYPE_HARD && H5Oexists_by_name(file_.id(), part.c_str(), H5P_DEFAULT) <= 0) return H5I_BADID;
+    if (link.type != H5L_TYPE_HARD && H5Oexists_by_name(file_.id(), part.c_str(), H5P_DEFAULT) <= 0)
+      return H5I_BADID;
     const Handle object(H5Oopen(file_.id(), part.c_str(), H5P_DEFAULT), H5Oclose);
     if (!object) fail(part, "cannot be opened, the file is damaged: " + reason());
     kind = H5Iget_type(object.id());
@@ -199,7 +111,8 @@ bool InputFile::is_dataset(const std::string& path) const { return object_kind(p
 std::vector<std::string> InputFile::children(const std::string& path) const {
   std::vector<std::string> names;
   const Handle group(H5Gopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Gclose);
-  // Not in order of name: for that HDF5 1.10 makes a table, which it frees unfilled where the file is damaged.
+  // Not in order of name: for that HDF5 1.10 makes a table, which it frees unfilled where the file is
+  // damaged.
   if (!group || H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect_name, &names) < 0)
     fail(path, "cannot be listed: " + reason());
   std::sort(names.begin(), names.end());
@@ -209,7 +122,8 @@ std::vector<std::string> InputFile::children(const std::string& path) const {
 std::vector<std::string> InputFile::attributes(const std::string& path) const {
   std::vector<std::string> names;
   const Handle object(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), H5Oclose);
-  if (!object || H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect_attribute, &names) < 0)
+  if (!object ||
+      H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect_attribute, &names) < 0)
     fail(path, "its attributes cannot be listed: " + reason());
   std::sort(names.begin(), names.end());
   return names;
@@ -218,7 +132,8 @@ std::vector<std::string> InputFile::attributes(const std::string& path) const {
 Handle InputFile::open_dataset(const std::string& path) const {
   if (!has(path)) fail(path, "is missing");
   Handle dataset(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!dataset) fail(path, is_group(path) ? "is a group, expected a dataset" : "cannot be opened: " + reason());
+  if (!dataset)
+    fail(path, is_group(path) ? "is a group, expected a dataset" : "cannot be opened: " + reason());
   return dataset;
 }
 
@@ -244,7 +159,8 @@ std::vector<T> InputFile::read(const std::string& path, std::int64_t memory_type
   const Handle dataset = open_dataset(path);
   const Handle space(H5Dget_space(dataset.id()), H5Sclose), stored(H5Dget_type(dataset.id()), H5Tclose);
   const Type type = type_of(stored.id());
-  if (type == Type::Text || type == Type::Other) fail(path, fmt::format("holds {}, expected numbers", name(type)));
+  if (type == Type::Text || type == Type::Other)
+    fail(path, fmt::format("holds {}, expected numbers", name(type)));
   if (H5Sget_simple_extent_type(space.id()) == H5S_NULL) fail(path, "is empty, expected numbers");
   std::vector<T> values;
   try {
@@ -254,12 +170,15 @@ std::vector<T> InputFile::read(const std::string& path, std::int64_t memory_type
   }
   if (!values.empty() && H5Dread(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(path, "cannot be read, the file is damaged: " + reason());
-  if (type == Type::Int64 && std::find(values.begin(), values.end(), static_cast<T>(lost_integer)) != values.end())
+  if (type == Type::Int64 &&
+      std::find(values.begin(), values.end(), static_cast<T>(lost_integer)) != values.end())
     fail(path, "cannot be read, the file is damaged: a part of it is not found");
   return values;
 }
 
-std::vector<double> InputFile::doubles(const std::string& path) const { return read<double>(path, H5T_NATIVE_DOUBLE); }
+std::vector<double> InputFile::doubles(const std::string& path) const {
+  return read<double>(path, H5T_NATIVE_DOUBLE);
+}
 
 std::vector<std::int64_t> InputFile::integers(const std::string& path) const {
   const Type stored = type(path);
@@ -279,7 +198,8 @@ std::vector<double> InputFile::rows(const std::string& path, std::size_t first, 
   const Handle space(H5Dget_space(dataset.id()), H5Sclose);
   const Extent shape = extent_of(space.id());
   if (shape.empty() || first + count > shape[0])
-    fail(path, fmt::format("its shape is {}, rows {} to {} were asked for", to_string(shape), first, first + count));
+    fail(path, fmt::format("its shape is {}, rows {} to {} were asked for", to_string(shape), first,
+                           first + count));
   std::vector<hsize_t> start(shape.size(), 0), extent(shape.begin(), shape.end());
   start[0] = first;
   extent[0] = count;
@@ -311,7 +231,8 @@ std::vector<std::string> InputFile::texts(const std::string& path) const {
 Handle InputFile::open_attribute(const std::string& object, const std::string& attribute) const {
   const htri_t there = H5Aexists_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT);
   if (there == 0 || (there < 0 && !has(object))) return {};
-  Handle handle(H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  Handle handle(H5Aopen_by_name(file_.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                H5Aclose);
   if (!handle) fail(object, "attribute " + attribute + " cannot be read, the file is damaged: " + reason());
   return handle;
 }
@@ -328,13 +249,15 @@ std::optional<std::vector<std::string>> InputFile::texts_attribute(const std::st
   if (!handle) return std::nullopt;
   const Handle stored(H5Aget_type(handle.id()), H5Tclose), space(H5Aget_space(handle.id()), H5Sclose);
   if (H5Tget_class(stored.id()) != H5T_STRING) return std::nullopt;
-  auto texts = read_texts(stored.id(), space.id(),
-                          [&](hid_t memory, void* buffer) { return H5Aread(handle.id(), memory, buffer) >= 0; });
+  auto texts = read_texts(stored.id(), space.id(), [&](hid_t memory, void* buffer) {
+    return H5Aread(handle.id(), memory, buffer) >= 0;
+  });
   if (!texts) fail(object, "attribute " + attribute + " cannot be read, the file is damaged: " + reason());
   return texts;
 }
 
-std::optional<std::string> InputFile::text_attribute(const std::string& object, const std::string& attribute) const {
+std::optional<std::string> InputFile::text_attribute(const std::string& object,
+                                                     const std::string& attribute) const {
   const auto texts = texts_attribute(object, attribute);
   if (!texts || texts->size() != 1) return std::nullopt;
   return texts->front();

@@ -13,7 +13,8 @@
 namespace pigment::io::h5 {
 namespace {
 
-constexpr std::size_t chunk_bytes = 256 * 1024;  // a checksum and a compressed unit each; a frame of 10,000 positions
+constexpr std::size_t chunk_bytes =
+    256 * 1024;  // a checksum and a compressed unit each; a frame of 10,000 positions
 constexpr unsigned deflate_level = 4;
 
 // Large leading dimensions are cut first, so that a chunk is a whole frame or several where frames are small.
@@ -35,9 +36,12 @@ std::vector<hsize_t> chunk_shape(const Extent& shape, std::size_t element) {
 
 hid_t stored_type(Type type) {
   switch (type) {
-    case Type::Float32: return H5T_IEEE_F32LE;
-    case Type::Int64: return H5T_STD_I64LE;
-    default: return H5T_IEEE_F64LE;
+    case Type::Float32:
+      return H5T_IEEE_F32LE;
+    case Type::Int64:
+      return H5T_STD_I64LE;
+    default:
+      return H5T_IEEE_F64LE;
   }
 }
 
@@ -50,15 +54,18 @@ OutputFile::OutputFile(std::filesystem::path final_name) : final_(std::move(fina
   std::error_code ignored;
   const auto status = std::filesystem::status(final_, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw OutputError(fmt::format("{}: cannot be written: there is something there that is not a file", final_.string()));
+    throw OutputError(
+        fmt::format("{}: cannot be written: there is something there that is not a file", final_.string()));
   part_ += ".part";
   const Handle access = property_list(H5P_FILE_ACCESS), creation = property_list(H5P_FILE_CREATE);
-  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);  // else one leaked handle would leave the file unfinished
+  H5Pset_fclose_degree(access.id(),
+                       H5F_CLOSE_STRONG);  // else one leaked handle would leave the file unfinished
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);  // object headers with checksums
   H5Pset_obj_track_times(creation.id(), false);                       // the root group
   // Opening for writing first gives the system's own words for what is wrong, and HDF5 none of the blame.
   const int descriptor = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw OutputError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
+  if (descriptor < 0)
+    throw OutputError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
   ::close(descriptor);
   file_ = Handle(H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
   if (!file_) throw OutputError(fmt::format("{}: cannot be written: {}", final_.string(), reason()));
@@ -104,8 +111,9 @@ Handle OutputFile::create(const std::string& path, const Extent& shape, std::int
     if (H5Tget_class(type) == H5T_INTEGER) H5Pset_fill_value(creation.id(), H5T_NATIVE_INT64, &lost_integer);
   }
   const Handle space = simple_space(shape);
-  Handle dataset(H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
-                 H5Dclose);
+  Handle dataset(
+      H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+      H5Dclose);
   if (!dataset) fail(path);
   return dataset;
 }
@@ -123,7 +131,8 @@ void OutputFile::write(const std::string& path, const Extent& shape, const doubl
 void OutputFile::write(const std::string& path, const Extent& shape, const std::int64_t* values) {
   make_parent(path);
   const Handle dataset = create(path, shape, H5T_STD_I64LE);
-  if (element_count(shape) > 0 && H5Dwrite(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+  if (element_count(shape) > 0 &&
+      H5Dwrite(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail(path);
 }
 
@@ -146,7 +155,8 @@ void OutputFile::write(const std::string& path, const std::vector<std::string>& 
   }
   const Handle type = text_type(length);
   const Handle dataset = create(path, {texts.size()}, type.id());
-  if (!texts.empty() && H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0) fail(path);
+  if (!texts.empty() && H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0)
+    fail(path);
 }
 
 OutputFile::Rows OutputFile::create_rows(const std::string& path, const Extent& shape, Type stored) {
@@ -170,30 +180,37 @@ void OutputFile::Rows::append(const void* values, std::int64_t memory_type, std:
     file_->fail(path_);
   filled_ += count;
 }
-void OutputFile::Rows::append(const double* values, std::size_t count) { append(values, H5T_NATIVE_DOUBLE, count); }
-void OutputFile::Rows::append(const std::int64_t* values, std::size_t count) { append(values, H5T_NATIVE_INT64, count); }
+void OutputFile::Rows::append(const double* values, std::size_t count) {
+  append(values, H5T_NATIVE_DOUBLE, count);
+}
+void OutputFile::Rows::append(const std::int64_t* values, std::size_t count) {
+  append(values, H5T_NATIVE_INT64, count);
+}
 
 void OutputFile::link(const std::string& existing, const std::string& path) {
   make_parent(path);
-  if (H5Lcreate_hard(file_.id(), existing.c_str(), file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) fail(path);
+  if (H5Lcreate_hard(file_.id(), existing.c_str(), file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    fail(path);
 }
 
-void OutputFile::raw_attribute(const std::string& object, const std::string& name, std::int64_t type, std::int64_t space,
-                               const void* value) const {
-  const Handle made(
-      H5Acreate_by_name(file_.id(), object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose);
+void OutputFile::raw_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                               std::int64_t space, const void* value) const {
+  const Handle made(H5Acreate_by_name(file_.id(), object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
   if (!made || H5Awrite(made.id(), type, value) < 0) fail(object + ", attribute " + name);
 }
 
 void OutputFile::attribute(const std::string& object, const std::string& name, const std::string& text) {
   // H5MD wants units in ASCII.
-  const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  const bool ascii =
+      std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   const Handle type = text_type(H5T_VARIABLE, ascii), space = simple_space({});
   const char* value = text.c_str();
   raw_attribute(object, name, type.id(), space.id(), &value);
 }
-void OutputFile::fixed_attribute(const std::string& object, const std::string& name, const std::string& text) {
+void OutputFile::fixed_attribute(const std::string& object, const std::string& name,
+                                 const std::string& text) {
   const Handle type = text_type(std::max<std::size_t>(text.size(), 1)), space = simple_space({});
   raw_attribute(object, name, type.id(), space.id(), text.c_str());
 }
@@ -217,7 +234,8 @@ void OutputFile::attribute(const std::string& object, const std::string& name, s
   const Handle space = simple_space({});
   raw_attribute(object, name, H5T_NATIVE_INT64, space.id(), &value);
 }
-void OutputFile::attribute(const std::string& object, const std::string& name, const std::vector<std::int64_t>& values) {
+void OutputFile::attribute(const std::string& object, const std::string& name,
+                           const std::vector<std::int64_t>& values) {
   const Handle space = simple_space({values.size()});
   raw_attribute(object, name, H5T_NATIVE_INT64, space.id(), values.data());
 }

@@ -12,6 +12,8 @@
 #include "base/log.h"
 #include "io/file_header.h"
 #include "io/file_units.h"
+#include "io/h5md_element.h"
+#include "io/overlaps.h"
 #include "io/particle_layout.h"
 
 namespace pigment::io {
@@ -19,82 +21,8 @@ namespace {
 
 const std::string layer_group = "/particles/layer";
 
-// An H5MD element: a dataset that holds for all frames, or a group with value (and step, time) that has frames.
-struct Element {
-  std::string path;     // the dataset with the numbers
-  h5::Extent shape;
-  bool has_frames = false;
-};
-
-std::optional<Element> find_element(const h5::InputFile& file, const std::string& path) {
-  if (!file.has(path)) return std::nullopt;
-  Element element;
-  element.has_frames = file.is_group(path);
-  element.path = element.has_frames ? path + "/value" : path;
-  if (!file.is_dataset(element.path)) file.fail(element.path, "is missing");
-  element.shape = file.shape(element.path);
-  return element;
-}
-
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-// step or time of an element; one number means equal intervals (H5MD 1.1).
-std::optional<std::vector<double>> read_schedule(const h5::InputFile& file, const std::string& path,
-                                                 std::optional<Dimension> dimension, std::size_t frames) {
-  if (!file.is_dataset(path)) return std::nullopt;
-  std::vector<double> values;
-  if (dimension) {
-    values = read_quantity(file, path, *dimension);
-  } else {
-    const auto whole = file.integers(path);
-    values.assign(whole.begin(), whole.end());
-  }
-  const h5::Extent shape = file.shape(path);
-  if (shape.empty()) {
-    const auto offset = file.number_attribute(path, "offset");
-    const double unit = dimension ? file_to_engine(file, path, *dimension).factor : 1;
-    const double first = offset && offset->size() == 1 ? offset->front() * unit : 0, interval = values.front();
-    values.resize(frames);
-    for (std::size_t f = 0; f < frames; ++f) values[f] = first + interval * static_cast<double>(f);
-  }
-  if (values.size() != frames)
-    file.fail(path, fmt::format("its shape is {}, expected [{}], one number a frame", h5::to_string(shape), frames));
-  for (std::size_t f = 1; f < frames; ++f)
-    if (!(values[f] >= values[f - 1])) file.fail(path, fmt::format("falls from frame {} to frame {}", f - 1, f));
-  return values;
-}
-
-// Pairs that overlap, found along the vertical; the shape of a layer makes that cheap enough.
-void warn_of_overlaps(const h5::InputFile& file, const Layer& layer) {
-  const auto& radius = layer.particles.radius;
-  const std::size_t count = radius.size();
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return layer.position[a].z() < layer.position[b].z(); });
-  const double largest = *std::max_element(radius.begin(), radius.end());
-  std::size_t overlaps = 0, worst_a = 0, worst_b = 0;
-  double deepest = 0;
-  const auto found = [&](std::size_t a, std::size_t b, double depth) {
-    if (!(depth > 0)) return;
-    ++overlaps;
-    if (depth > deepest) deepest = depth, worst_a = a, worst_b = b;
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t a = order[i];
-    found(a, a, 2 * radius[a] - std::min(layer.cell.width_x, layer.cell.width_y));  // with its own periodic image
-    for (std::size_t j = i + 1; j < count; ++j) {
-      const std::size_t b = order[j];
-      if (layer.position[b].z() - layer.position[a].z() > radius[a] + largest) break;
-      found(a, b, radius[a] + radius[b] - layer.cell.minimum_image(layer.position[b] - layer.position[a]).norm());
-    }
-  }
-  if (overlaps == 0) return;
-  warning(fmt::format("{}: {} {} of particles overlap{}; the deepest is {:.3g} nm, ids {} and {}", file.file().string(),
-                      overlaps, overlaps == 1 ? "pair" : "pairs", overlaps == 1 ? "s" : "", 1e3 * deepest,
-                      layer.particles.id[worst_a], layer.particles.id[worst_b]));
 }
 
 }  // namespace
@@ -129,13 +57,16 @@ void ParticleFile::Data::find_positions() {
   if (!file.is_group(layer_group))
     file.fail(layer_group, fmt::format("is missing; the file has {}", list(file.children("/"))));
   const auto found = find_element(file, layer_group + "/position");
-  if (!found) file.fail(layer_group + "/position", fmt::format("is missing; there is {}", list(file.children(layer_group))));
+  if (!found)
+    file.fail(layer_group + "/position",
+              fmt::format("is missing; there is {}", list(file.children(layer_group))));
   position = *found;
   const auto& shape = position.shape;
   if (shape.size() == 3) position.has_frames = true;
   if (shape.size() == 2 && position.has_frames) position.has_frames = false;
   if (shape.size() < 2 || shape.size() > 3 || shape.back() != 3)
-    file.fail(position.path, fmt::format("its shape is {}, expected [N, 3] or [frames, N, 3]", h5::to_string(shape)));
+    file.fail(position.path,
+              fmt::format("its shape is {}, expected [N, 3] or [frames, N, 3]", h5::to_string(shape)));
   frames = position.has_frames ? shape[0] : 1;
   if (frames == 0) file.fail(position.path, "holds no frame");
   if (shape[shape.size() - 2] == 0) file.fail(position.path, "holds no particle");
@@ -148,8 +79,8 @@ void ParticleFile::Data::find_edges() {
     file.fail(path, "is missing; write the box's three edges there (the periods in x and y, and the height)");
   edges = *found;
   const auto& s = edges.shape;
-  // [3], [3, 3], [frames, 3], [frames, 3, 3]. [3, 3] can be a matrix or three frames: a matrix has zeros off its diagonal
-  // and an edge of 0 is none.
+  // [3], [3, 3], [frames, 3], [frames, 3, 3]. [3, 3] can be a matrix or three frames: a matrix has zeros off
+  // its diagonal and an edge of 0 is none.
   bool fine = !s.empty() && s.back() == 3 && s.size() <= 3;
   if (fine && s.size() == 3) {
     fine = s[1] == 3;
@@ -161,18 +92,20 @@ void ParticleFile::Data::find_edges() {
     edges_have_frames = !edges_are_matrix;
   }
   if (!fine || (edges_have_frames && s[0] != frames && s[0] != 1))
-    file.fail(edges.path, fmt::format("its shape is {}, expected [3] or [3, 3], with or without {} frame{} before",
-                                      h5::to_string(s), frames, frames == 1 ? "" : "s"));
+    file.fail(edges.path,
+              fmt::format("its shape is {}, expected [3] or [3, 3], with or without {} frame{} before",
+                          h5::to_string(s), frames, frames == 1 ? "" : "s"));
   if (edges_have_frames && s[0] == 1 && frames > 1) edges_have_frames = false;  // one box for all frames
   if (const auto boundary = file.texts_attribute(layer_group + "/box", "boundary"))
     if (*boundary != std::vector<std::string>{"periodic", "periodic", "none"})
-      warning(fmt::format("{}: {}/box: its boundary is {}; taken as periodic, periodic, none", file.file().string(),
-                          layer_group, list(*boundary)));
+      warning(fmt::format("{}: {}/box: its boundary is {}; taken as periodic, periodic, none",
+                          file.file().string(), layer_group, list(*boundary)));
 }
 
 Cell ParticleFile::Data::cell(std::size_t frame) const {
-  const std::vector<double> v = edges_have_frames ? read_quantity_rows(file, edges.path, Dimension::Length, frame, 1)
-                                                  : read_quantity(file, edges.path, Dimension::Length);
+  const std::vector<double> v = edges_have_frames
+                                    ? read_quantity_rows(file, edges.path, Dimension::Length, frame, 1)
+                                    : read_quantity(file, edges.path, Dimension::Length);
   Cell cell;
   if (edges_are_matrix) {
     for (const std::size_t k : {1, 2, 3, 5, 6, 7})
@@ -182,8 +115,10 @@ Cell ParticleFile::Data::cell(std::size_t frame) const {
     cell = {v[0], v[1], v[2]};
   }
   if (!(cell.width_x > 0 && cell.width_y > 0 && cell.height > 0))
-    file.fail(edges.path, fmt::format("the edges {}, {}, {} m are not all positive", to_si(Dimension::Length, cell.width_x),
-                                      to_si(Dimension::Length, cell.width_y), to_si(Dimension::Length, cell.height)));
+    file.fail(
+        edges.path,
+        fmt::format("the edges {}, {}, {} m are not all positive", to_si(Dimension::Length, cell.width_x),
+                    to_si(Dimension::Length, cell.width_y), to_si(Dimension::Length, cell.height)));
   return cell;
 }
 
@@ -193,7 +128,8 @@ void ParticleFile::Data::find_schedule() {
   const auto steps = read_schedule(file, element + "/step", std::nullopt, frames);
   if (!times) {
     if (frames > 1)
-      warning(fmt::format("{}: {}/time is missing; frame k is taken to be at k seconds", file.file().string(), element));
+      warning(fmt::format("{}: {}/time is missing; frame k is taken to be at k seconds", file.file().string(),
+                          element));
     times.emplace(frames);
     for (std::size_t f = 0; f < frames; ++f) (*times)[f] = to_engine(Dimension::Time, static_cast<double>(f));
   }
@@ -211,7 +147,8 @@ std::optional<Element> ParticleFile::Data::find_velocity(const std::string& name
   const std::size_t count = particles.size();
   const bool fine = s == h5::Extent{frames, count, 3} || (frames == 1 && s == h5::Extent{count, 3});
   if (!fine)
-    file.fail(found->path, fmt::format("its shape is {}, expected [{}, {}, 3] as position has", h5::to_string(s), frames, count));
+    file.fail(found->path, fmt::format("its shape is {}, expected [{}, {}, 3] as position has",
+                                       h5::to_string(s), frames, count));
   return found;
 }
 
@@ -219,20 +156,24 @@ Vec3Array ParticleFile::Data::vectors(const Element& element, Dimension dimensio
   const auto values = element.has_frames ? read_quantity_rows(file, element.path, dimension, frame, 1)
                                          : read_quantity(file, element.path, dimension);
   Vec3Array vectors(values.size() / 3);
-  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return vectors;
 }
 
 void ParticleFile::Data::read_fixed() {
   const std::size_t count = position.shape[position.shape.size() - 2];
   const auto check_shape = [&](const std::string& path) {
-    if (!file.is_dataset(path)) file.fail(path, "is not a dataset; expected one number a particle, the same in all frames");
+    if (!file.is_dataset(path))
+      file.fail(path, "is not a dataset; expected one number a particle, the same in all frames");
     const h5::Extent shape = file.shape(path);
     if (shape != h5::Extent{count})
-      file.fail(path, fmt::format("its shape is {}, expected [{}], one number a particle", h5::to_string(shape), count));
+      file.fail(path, fmt::format("its shape is {}, expected [{}], one number a particle",
+                                  h5::to_string(shape), count));
   };
   const std::string radius = layer_group + "/radius", mass = layer_group + "/mass";
-  if (!file.has(radius)) file.fail(radius, fmt::format("is missing; there is {}", list(file.children(layer_group))));
+  if (!file.has(radius))
+    file.fail(radius, fmt::format("is missing; there is {}", list(file.children(layer_group))));
   check_shape(radius);
   particles.radius = read_quantity(file, radius, Dimension::Length);
   for (std::size_t i = 0; i < count; ++i)
@@ -245,7 +186,8 @@ void ParticleFile::Data::read_fixed() {
     particles.mass = read_quantity(file, mass, Dimension::Mass);
     for (std::size_t i = 0; i < count; ++i)
       if (!(particles.mass[i] > 0))
-        file.fail(mass, fmt::format("entry {} is {} kg, expected a positive mass", i, to_si(Dimension::Mass, particles.mass[i])));
+        file.fail(mass, fmt::format("entry {} is {} kg, expected a positive mass", i,
+                                    to_si(Dimension::Mass, particles.mass[i])));
   } else {
     particles.mass.assign(count, 0.0);
   }
@@ -255,7 +197,8 @@ void ParticleFile::Data::read_fixed() {
     const auto species = file.integers(path);
     for (std::size_t i = 0; i < count; ++i) {
       if (species[i] < 0 || species[i] > 1'000'000)
-        file.fail(path, fmt::format("entry {} is {}, expected 0 for the first species, 1 for the next, ...", i, species[i]));
+        file.fail(path, fmt::format("entry {} is {}, expected 0 for the first species, 1 for the next, ...",
+                                    i, species[i]));
       particles.species[i] = static_cast<int>(species[i]);
     }
   }
@@ -267,7 +210,8 @@ void ParticleFile::Data::read_fixed() {
     std::set<std::int64_t> seen;
     for (std::size_t i = 0; i < count; ++i)
       if (!seen.insert(particles.id[i]).second)
-        file.fail(path, fmt::format("entry {} is {}, which another particle has already", i, particles.id[i]));
+        file.fail(path,
+                  fmt::format("entry {} is {}, which another particle has already", i, particles.id[i]));
   }
   if (file.is_dataset(layer_group + "/species_names"))
     species_names = file.texts(layer_group + "/species_names");
@@ -286,9 +230,11 @@ ParticleFile::ParticleFile(const std::filesystem::path& name) : data_(std::make_
   const Layer first = layer(0);
   for (std::size_t i = 0; i < first.position.size(); ++i)
     if (!(first.position[i].z() > 0))
-      d.file.fail(d.position.path, fmt::format("particle {} (id {}) is centred at z = {} m, expected above the substrate, z = 0", i,
-                                               first.particles.id[i], to_si(Dimension::Length, first.position[i].z())));
-  if (d.header.kind != "trajectory") warn_of_overlaps(d.file, first);
+      d.file.fail(
+          d.position.path,
+          fmt::format("particle {} (id {}) is centred at z = {} m, expected above the substrate, z = 0", i,
+                      first.particles.id[i], to_si(Dimension::Length, first.position[i].z())));
+  if (d.header.kind != "trajectory") warn_of_overlaps(d.file.file(), first);
 }
 
 ParticleFile::~ParticleFile() = default;
@@ -310,21 +256,24 @@ std::string ParticleFile::outcome() const {
 Frame ParticleFile::frame(std::size_t index) const {
   const Data& d = *data_;
   if (index >= d.frames)
-    throw FileError(fmt::format("{}: has {} frames, frame {} (counted from 0) was asked for", path().string(), d.frames, index));
+    throw FileError(fmt::format("{}: has {} frames, frame {} (counted from 0) was asked for", path().string(),
+                                d.frames, index));
   Frame frame;
   frame.step = static_cast<std::int64_t>(d.step[index]);
   frame.time = d.time[index];
   frame.cell = d.cell(index);
   frame.position = d.vectors(d.position, Dimension::Length, index);
   if (d.velocity) frame.velocity = d.vectors(*d.velocity, Dimension::Velocity, index);
-  if (d.angular_velocity) frame.angular_velocity = d.vectors(*d.angular_velocity, Dimension::AngularVelocity, index);
+  if (d.angular_velocity)
+    frame.angular_velocity = d.vectors(*d.angular_velocity, Dimension::AngularVelocity, index);
   return frame;
 }
 
 Layer ParticleFile::layer(std::size_t index) const {
   const Data& d = *data_;
   if (index >= d.frames)
-    throw FileError(fmt::format("{}: has {} frames, frame {} (counted from 0) was asked for", path().string(), d.frames, index));
+    throw FileError(fmt::format("{}: has {} frames, frame {} (counted from 0) was asked for", path().string(),
+                                d.frames, index));
   return {d.cell(index), d.particles, d.vectors(d.position, Dimension::Length, index)};
 }
 
@@ -354,11 +303,13 @@ std::vector<double> ParticleFile::observable_time(const std::string& name) const
   const auto& file = data_->file;
   const std::string value = "/observables/" + name + "/value";
   if (!file.is_dataset(value) || file.shape(value).size() != 1) return {};
-  return read_schedule(file, "/observables/" + name + "/time", Dimension::Time, file.shape(value)[0]).value_or(std::vector<double>{});
+  return read_schedule(file, "/observables/" + name + "/time", Dimension::Time, file.shape(value)[0])
+      .value_or(std::vector<double>{});
 }
 
-void write_packing(const std::filesystem::path& name, const Layer& layer, const std::vector<std::string>& species_names,
-                   const std::vector<Dataset>& report, const Provenance& provenance) {
+void write_packing(const std::filesystem::path& name, const Layer& layer,
+                   const std::vector<std::string>& species_names, const std::vector<Dataset>& report,
+                   const Provenance& provenance) {
   ParticleContent content;
   content.kind = "packing";
   content.particles = &layer.particles;

@@ -48,8 +48,8 @@ h5::OutputFile::Rows create_element(h5::OutputFile& file, const std::string& ele
   return rows;
 }
 
-void append_vectors(h5::OutputFile::Rows& rows, const Vec3Array& vectors, std::size_t count, Dimension dimension,
-                    std::vector<double>& buffer) {
+void append_vectors(h5::OutputFile::Rows& rows, const Vec3Array& vectors, std::size_t count,
+                    Dimension dimension, std::vector<double>& buffer) {
   buffer.assign(3 * count, 0.0);
   for (std::size_t i = 0; i < vectors.size(); ++i)
     for (int k = 0; k < 3; ++k) buffer[3 * i + static_cast<std::size_t>(k)] = to_si(dimension, vectors[i][k]);
@@ -75,13 +75,15 @@ void write_particle_content(const std::filesystem::path& name, const ParticleCon
   auto edges = create_element(file, layer + "/box/edges", {frames, 3}, Dimension::Length);
   h5::OutputFile::Rows velocity, angular_velocity;
   if (content.velocities) {
-    velocity = create_element(file, layer + "/velocity", {frames, count, 3}, Dimension::Velocity, Type::Float32);
-    angular_velocity = create_element(file, layer + "/angular_velocity", {frames, count, 3}, Dimension::AngularVelocity,
-                                      Type::Float32);
+    velocity =
+        create_element(file, layer + "/velocity", {frames, count, 3}, Dimension::Velocity, Type::Float32);
+    angular_velocity = create_element(file, layer + "/angular_velocity", {frames, count, 3},
+                                      Dimension::AngularVelocity, Type::Float32);
   }
   std::vector<h5::OutputFile::Rows> observables;
   for (const auto& observable : content.observables)
-    observables.push_back(create_element(file, "/observables/" + observable.name, {frames}, observable.dimension));
+    observables.push_back(
+        create_element(file, "/observables/" + observable.name, {frames}, observable.dimension));
   write_fixed(file, content);
   write_datasets(file, content.extra);
 
@@ -93,7 +95,8 @@ void write_particle_content(const std::filesystem::path& name, const ParticleCon
     step.append(&frame.step, 1);
     time.append(&seconds, 1);
     append_vectors(position, frame.position, count, Dimension::Length, buffer);
-    append_vectors(edges, {Vec3(frame.cell.width_x, frame.cell.width_y, frame.cell.height)}, 1, Dimension::Length, buffer);
+    append_vectors(edges, {Vec3(frame.cell.width_x, frame.cell.width_y, frame.cell.height)}, 1,
+                   Dimension::Length, buffer);
     if (content.velocities) {
       append_vectors(velocity, frame.velocity, count, Dimension::Velocity, buffer);
       append_vectors(angular_velocity, frame.angular_velocity, count, Dimension::AngularVelocity, buffer);

@@ -1,5 +1,6 @@
 #pragma once
-// The layout that packings and trajectories share, H5MD 1.1, written in one go from frames that come one at a time:
+// The layout that packings and trajectories share, H5MD 1.1, written in one go from frames that come one at a
+// time:
 //   /h5md, /pigment, /provenance
 //   /particles/layer/box               attributes dimension, boundary
 //   /particles/layer/box/edges         value [frames, 3], step and time: those of position

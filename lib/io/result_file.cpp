@@ -14,22 +14,29 @@ namespace {
 
 Dataset::Storage storage_of(h5::Type type) {
   switch (type) {
-    case h5::Type::Float64: return Dataset::Storage::Float64;
-    case h5::Type::Float32: return Dataset::Storage::Float32;
-    default: return Dataset::Storage::Int64;
+    case h5::Type::Float64:
+      return Dataset::Storage::Float64;
+    case h5::Type::Float32:
+      return Dataset::Storage::Float32;
+    default:
+      return Dataset::Storage::Int64;
   }
 }
 h5::Type type_of(Dataset::Storage storage) {
   switch (storage) {
-    case Dataset::Storage::Float32: return h5::Type::Float32;
-    case Dataset::Storage::Int64: return h5::Type::Int64;
-    case Dataset::Storage::Float64: break;
+    case Dataset::Storage::Float32:
+      return h5::Type::Float32;
+    case Dataset::Storage::Int64:
+      return h5::Type::Int64;
+    case Dataset::Storage::Float64:
+      break;
   }
   return h5::Type::Float64;
 }
 
-void read_below(const h5::InputFile& file, const std::string& group, const std::map<std::string, Dimension>& dimensions,
-                std::vector<Dataset>& out, int depth = 0) {
+void read_below(const h5::InputFile& file, const std::string& group,
+                const std::map<std::string, Dimension>& dimensions, std::vector<Dataset>& out,
+                int depth = 0) {
   if (depth > 16) file.fail(group, "groups lie too deep in each other");
   for (const auto& name : file.children(group)) {
     const std::string path = group + "/" + name;
@@ -41,7 +48,8 @@ void read_below(const h5::InputFile& file, const std::string& group, const std::
       dataset.shape = file.shape(path);
       dataset.storage = storage_of(file.type(path));
       const auto listed = dimensions.find(path);
-      dataset.dimension = listed != dimensions.end() ? listed->second : dimension_of_unit(unit_of(file, path));
+      dataset.dimension =
+          listed != dimensions.end() ? listed->second : dimension_of_unit(unit_of(file, path));
       dataset.values = read_quantity(file, path, dataset.dimension);
       out.push_back(std::move(dataset));
     }
@@ -54,11 +62,12 @@ void write_datasets(h5::OutputFile& file, const std::vector<Dataset>& datasets) 
   for (const auto& dataset : datasets) {
     // Broken invariants of the caller, not of the user.
     if (h5::element_count(dataset.shape) != dataset.values.size())
-      throw std::logic_error(fmt::format("{}: {} values for the shape {}", dataset.path, dataset.values.size(),
-                                         h5::to_string(dataset.shape)));
+      throw std::logic_error(fmt::format("{}: {} values for the shape {}", dataset.path,
+                                         dataset.values.size(), h5::to_string(dataset.shape)));
     for (const double value : dataset.values)
       if (!std::isfinite(value)) throw std::logic_error(dataset.path + ": a result is not a finite number");
-    write_quantity(file, dataset.path, dataset.shape, dataset.values, dataset.dimension, type_of(dataset.storage));
+    write_quantity(file, dataset.path, dataset.shape, dataset.values, dataset.dimension,
+                   type_of(dataset.storage));
   }
 }
 
@@ -72,7 +81,8 @@ const Dataset& ResultFile::require(const std::string& path) const {
   if (const Dataset* found = find(path)) return *found;
   std::string there;
   for (const auto& dataset : datasets) there += (there.empty() ? "" : ", ") + dataset.path;
-  throw FileError(fmt::format("{}: {} is missing; there is {}", file.string(), path, there.empty() ? "nothing" : there));
+  throw FileError(
+      fmt::format("{}: {} is missing; there is {}", file.string(), path, there.empty() ? "nothing" : there));
 }
 
 void write_result(const std::filesystem::path& name, const ResultFile& result) {
@@ -81,7 +91,8 @@ void write_result(const std::filesystem::path& name, const ResultFile& result) {
   const std::string group = "/" + result.kind;
   file.group(group);
   for (const auto& [attribute, value] : result.numbers) {
-    if (!std::isfinite(value)) throw std::logic_error(group + ": attribute " + attribute + " is not a finite number");
+    if (!std::isfinite(value))
+      throw std::logic_error(group + ": attribute " + attribute + " is not a finite number");
     file.attribute(group, attribute, value);
   }
   write_datasets(file, result.datasets);

@@ -18,7 +18,9 @@ class Sha256 {
   Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
     check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
   }
-  void add(const void* bytes, std::size_t count) { check(EVP_DigestUpdate(context_.get(), bytes, count) == 1); }
+  void add(const void* bytes, std::size_t count) {
+    check(EVP_DigestUpdate(context_.get(), bytes, count) == 1);
+  }
   std::string hex() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned length = 0;
@@ -45,7 +47,8 @@ std::string sha256_of_file(const std::filesystem::path& name) {
   if (!file) throw FileError(fmt::format("{}: cannot be read: {}", name.string(), std::strerror(errno)));
   Sha256 sum;
   std::array<char, 1 << 16> buffer;
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get())) sum.add(buffer.data(), count);
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get()))
+    sum.add(buffer.data(), count);
   if (std::ferror(file.get()) != 0)
     throw FileError(fmt::format("{}: cannot be read: {}", name.string(), std::strerror(errno)));
   return sum.hex();

@@ -1,5 +1,6 @@
 #pragma once
-// Names beside an output: for "run/trajectory.h5", sibling(output, ".checkpoint.h5") is "run/trajectory.checkpoint.h5".
+// Names beside an output: for "run/trajectory.h5", sibling(output, ".checkpoint.h5") is
+// "run/trajectory.checkpoint.h5".
 #include <filesystem>
 
 namespace pigment::io {

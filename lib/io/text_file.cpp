@@ -14,7 +14,8 @@ TextFile::TextFile(std::filesystem::path final_name) : final_(std::move(final_na
   std::error_code ignored;
   const auto status = std::filesystem::status(final_, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw OutputError(fmt::format("{}: cannot be written: there is something there that is not a file", final_.string()));
+    throw OutputError(
+        fmt::format("{}: cannot be written: there is something there that is not a file", final_.string()));
   part_ += ".part";
   file_ = std::fopen(part_.c_str(), "wbe");
   if (file_ == nullptr) fail(errno);

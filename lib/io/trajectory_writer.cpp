@@ -18,7 +18,9 @@ namespace {
 std::string owner_of(const Layer& layer, const std::vector<std::string>& species_names,
                      const std::vector<ObservableInfo>& observables, const Provenance& provenance) {
   std::string text = fmt::format("{} particles", layer.particles.size());
-  const auto add = [&](const void* bytes, std::size_t count) { text.append(static_cast<const char*>(bytes), count); };
+  const auto add = [&](const void* bytes, std::size_t count) {
+    text.append(static_cast<const char*>(bytes), count);
+  };
   const Particles& p = layer.particles;
   add(p.radius.data(), p.radius.size() * sizeof p.radius[0]);
   add(p.mass.data(), p.mass.size() * sizeof p.mass[0]);
@@ -26,7 +28,8 @@ std::string owner_of(const Layer& layer, const std::vector<std::string>& species
   add(p.id.data(), p.id.size() * sizeof p.id[0]);
   for (const auto& position : layer.position) add(position.data(), 3 * sizeof(double));
   for (const auto& name : species_names) text += "\nspecies " + name;
-  for (const auto& o : observables) text += fmt::format("\nobservable {} {}", o.name, static_cast<int>(o.dimension));
+  for (const auto& o : observables)
+    text += fmt::format("\nobservable {} {}", o.name, static_cast<int>(o.dimension));
   text += "\n" + provenance.tool + "\n" + provenance.scene;
   for (const auto& [role, hash] : provenance.inputs) text += "\n" + role + " " + hash;
   return sha256_of_text(text);
@@ -55,19 +58,23 @@ void TrajectoryWriter::Data::write(const std::filesystem::path& name,
   content.velocities = true;
   content.observables = observables;
   content.frame_count = journal.frame_count();
-  content.frame = [this](std::size_t i, Frame& frame, std::vector<double>& values) { journal.read(i, frame, values); };
+  content.frame = [this](std::size_t i, Frame& frame, std::vector<double>& values) {
+    journal.read(i, frame, values);
+  };
   content.provenance = provenance;
   write_particle_content(name, content);
 }
 
 TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& output, Layer first,
-                                   std::vector<std::string> species_names, std::vector<ObservableInfo> observables,
-                                   Provenance provenance, std::size_t keep_frames) {
+                                   std::vector<std::string> species_names,
+                                   std::vector<ObservableInfo> observables, Provenance provenance,
+                                   std::size_t keep_frames) {
   const std::string owner = owner_of(first, species_names, observables, provenance);
   const std::size_t particles = first.particles.size(), columns = observables.size();
-  data_ = std::unique_ptr<Data>(new Data{output, std::move(first.particles), std::move(species_names),
-                                         std::move(observables), std::move(provenance),
-                                         FrameJournal(sibling(output, ".frames.part"), owner, particles, columns, keep_frames)});
+  data_ = std::unique_ptr<Data>(
+      new Data{output, std::move(first.particles), std::move(species_names), std::move(observables),
+               std::move(provenance),
+               FrameJournal(sibling(output, ".frames.part"), owner, particles, columns, keep_frames)});
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;
@@ -106,7 +113,8 @@ std::size_t TrajectoryWriter::frame_count() const { return data_->journal.frame_
 
 void TrajectoryWriter::finish(const std::string& outcome) {
   data_->write(data_->output, {{"outcome", outcome}});
-  // In this order: a checkpoint without its journal could not be gone on from, a journal without checkpoint does no harm.
+  // In this order: a checkpoint without its journal could not be gone on from, a journal without checkpoint
+  // does no harm.
   remove_checkpoint(data_->output);
   data_->journal.remove();
   std::error_code ignored;

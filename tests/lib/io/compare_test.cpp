@@ -19,15 +19,18 @@ fs::path write(const fs::path& name, const std::function<void(h5::OutputFile&)>&
   return name;
 }
 fs::path write_numbers(const fs::path& name, const std::vector<double>& values) {
-  return write(name, [&](h5::OutputFile& file) { file.write("/group/values", {values.size()}, values.data()); });
+  return write(name,
+               [&](h5::OutputFile& file) { file.write("/group/values", {values.size()}, values.data()); });
 }
-std::vector<std::string> differences(const fs::path& a, const fs::path& b, const CompareOptions& options = {}) {
+std::vector<std::string> differences(const fs::path& a, const fs::path& b,
+                                     const CompareOptions& options = {}) {
   return compare_files(a, b, options).differences;
 }
 
 TEST(Compare, SeesNumbersOfAnySize) {
   const fs::path folder = fresh_folder();
-  const fs::path a = write_numbers(folder / "a.h5", {1, 1e-21}), b = write_numbers(folder / "b.h5", {1, 2e-21});
+  const fs::path a = write_numbers(folder / "a.h5", {1, 1e-21}),
+                 b = write_numbers(folder / "b.h5", {1, 2e-21});
   EXPECT_TRUE(differences(a, a).empty());
   const auto found = differences(a, b, {{0.4, 0}, {}, {}, false});
   ASSERT_EQ(found.size(), 1u);
@@ -42,7 +45,8 @@ TEST(Compare, TheLongestPathSetsTheTolerance) {
   const fs::path folder = fresh_folder();
   const fs::path a = write_numbers(folder / "a.h5", {1}), b = write_numbers(folder / "b.h5", {1.01});
   EXPECT_TRUE(differences(a, b, {{}, {{"/group", {0.1, 0}}}, {}, false}).empty());
-  EXPECT_FALSE(differences(a, b, {{1, 0}, {{"/group", {0.1, 0}}, {"/group/values", {0, 0}}}, {}, false}).empty());
+  EXPECT_FALSE(
+      differences(a, b, {{1, 0}, {{"/group", {0.1, 0}}, {"/group/values", {0, 0}}}, {}, false}).empty());
   EXPECT_TRUE(differences(a, b, {{}, {{"/", {0.1, 0}}}, {}, false}).empty());
   EXPECT_THROW(differences(a, b, {{}, {{"/grop", {0.1, 0}}}, {}, false}), InputError);
 }
@@ -64,7 +68,8 @@ TEST(Compare, NamesTheLargestDifference) {
 TEST(Compare, WhatIsNotANumberIsNeverTheSameUnlessAsked) {
   const fs::path folder = fresh_folder();
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
-  const fs::path a = write_numbers(folder / "a.h5", {nan, infinite}), b = write_numbers(folder / "b.h5", {1, infinite});
+  const fs::path a = write_numbers(folder / "a.h5", {nan, infinite}),
+                 b = write_numbers(folder / "b.h5", {1, infinite});
   CompareOptions options;
   options.tolerance = {1e300, 1e300};
   EXPECT_FALSE(differences(a, a, options).empty());
@@ -114,7 +119,8 @@ TEST(Compare, SeesShapesTypesObjectsAttributesAndText) {
   CompareOptions options;
   options.ignore = {"/group", "/only_a", "/only_b", "/shape", "/text", "/type"};
   EXPECT_TRUE(differences(a, b, options).empty());
-  options.ignore = {"/group@lost", "/group@number", "/group@other", "/only_a", "/only_b", "/shape", "/text", "/type"};
+  options.ignore = {"/group@lost", "/group@number", "/group@other", "/only_a",
+                    "/only_b",     "/shape",        "/text",        "/type"};
   EXPECT_EQ(differences(a, b, options), std::vector<std::string>{"/group@unit: \"m\" against \"s\""});
 }
 

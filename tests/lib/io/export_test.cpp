@@ -57,7 +57,11 @@ TEST(Export, CsvStandsDatasetsSideBySide) {
   ResultFile result;
   result.kind = "solids";
   result.datasets = {{"/solids/time", {2}, {0, 500}, Dimension::Time, Dataset::Storage::Float64},
-                     {"/solids/fraction", {2, 2}, {0.1, 0.2, 0.3, 0.4}, Dimension::VolumeFraction, Dataset::Storage::Float64},
+                     {"/solids/fraction",
+                      {2, 2},
+                      {0.1, 0.2, 0.3, 0.4},
+                      Dimension::VolumeFraction,
+                      Dataset::Storage::Float64},
                      {"/solids/edges", {3}, {0, 1, 2}, Dimension::Length, Dataset::Storage::Float64}};
   write_result(input, result);
   EXPECT_EQ(export_csv(input, "", output), "edges");

@@ -22,10 +22,12 @@ Layer example_layer() {
   return layer;
 }
 
-// A file as somebody would make it with a few lines of h5py: nothing but what must be there, SI without units.
+// A file as somebody would make it with a few lines of h5py: nothing but what must be there, SI without
+// units.
 struct ByHand {
   h5::Extent position_shape{2, 3}, edges_shape{3};
-  std::vector<double> position{1e-6, 1e-6, 1e-6, 3e-6, 3e-6, 2e-6}, edges{5e-6, 6e-6, 10e-6}, radius{0.5e-6, 0.25e-6};
+  std::vector<double> position{1e-6, 1e-6, 1e-6, 3e-6, 3e-6, 2e-6}, edges{5e-6, 6e-6, 10e-6},
+      radius{0.5e-6, 0.25e-6};
   std::string position_path = "/particles/layer/position", edges_path = "/particles/layer/box/edges";
 
   fs::path write(const std::function<void(h5::OutputFile&)>& more = {}) const {
@@ -49,7 +51,8 @@ TEST(ParticleFile, PackingComesBackAsItWasWritten) {
   const Layer layer = example_layer();
   const Provenance provenance{"pigment-pack", "seed: 1\n", {{"size table", "abc"}}};
   write_packing(name, layer, {"pigment", "latex"},
-                {{"/packing/profile", {2}, {0.4, 0.5}, Dimension::VolumeFraction, Dataset::Storage::Float64}}, provenance);
+                {{"/packing/profile", {2}, {0.4, 0.5}, Dimension::VolumeFraction, Dataset::Storage::Float64}},
+                provenance);
   const ParticleFile file(name);
   EXPECT_EQ(file.particle_count(), 3u);
   EXPECT_EQ(file.frame_count(), 1u);
@@ -74,7 +77,8 @@ TEST(ParticleFile, PackingComesBackAsItWasWritten) {
   EXPECT_EQ(file.frame(0).time, 0);
 }
 
-// What is read and written again stays the same to the bit, so that frame 0 of a trajectory is the packing as given.
+// What is read and written again stays the same to the bit, so that frame 0 of a trajectory is the packing as
+// given.
 TEST(ParticleFile, WritingWhatWasReadChangesNoBit) {
   const fs::path folder = fresh_folder();
   Layer layer = example_layer();
@@ -85,7 +89,8 @@ TEST(ParticleFile, WritingWhatWasReadChangesNoBit) {
     layer.particles.mass.push_back(1e-3 * std::sqrt(i + 1.0));
     layer.particles.species.push_back(0);
     layer.particles.id.push_back(i);
-    layer.position.emplace_back(5 * std::sin(i * 1.0), 3 * std::cos(i * 1.7), 1 + std::fmod(i * 0.61803398875, 24.0));
+    layer.position.emplace_back(5 * std::sin(i * 1.0), 3 * std::cos(i * 1.7),
+                                1 + std::fmod(i * 0.61803398875, 24.0));
   }
   write_packing(folder / "a.h5", layer, {}, {}, {});
   const ParticleFile first(folder / "a.h5");
@@ -192,7 +197,8 @@ TEST(ParticleFile, ConvertsUnitsOfTheRightDimension) {
   EXPECT_DOUBLE_EQ(file.frame(0).time, 4);
   const fs::path wrong = hand.write(units("kg"));
   const std::string refusal = message_of([&] { ParticleFile again(wrong); });
-  expect_contains(refusal, "3 " + wrong.string() + ": /particles/layer/radius: its unit \"kg\" is not a unit of length");
+  expect_contains(
+      refusal, "3 " + wrong.string() + ": /particles/layer/radius: its unit \"kg\" is not a unit of length");
 }
 
 TEST(ParticleFile, SaysWhatIsWrongWithAFileMadeByHand) {
@@ -237,18 +243,21 @@ TEST(ParticleFile, SaysWhatIsWrongWithAFileMadeByHand) {
 TEST(ParticleFile, RefusesDoubledNamesAndShapesThatDoNotFit) {
   const std::int64_t ids[] = {4, 4};
   fs::path name = ByHand{}.write([&](h5::OutputFile& f) { f.write("/particles/layer/id", {2}, ids); });
-  expect_contains(message_of([&] { ParticleFile file(name); }), "/particles/layer/id: entry 1 is 4, which another");
+  expect_contains(message_of([&] { ParticleFile file(name); }),
+                  "/particles/layer/id: entry 1 is 4, which another");
   const std::int64_t species[] = {0, -1};
   name = ByHand{}.write([&](h5::OutputFile& f) { f.write("/particles/layer/species", {2}, species); });
   expect_contains(message_of([&] { ParticleFile file(name); }), "/particles/layer/species: entry 1 is -1");
   const double velocity[] = {1, 2, 3};
   name = ByHand{}.write([&](h5::OutputFile& f) { f.write("/particles/layer/velocity", {1, 3}, velocity); });
-  expect_contains(message_of([&] { ParticleFile file(name); }), "/particles/layer/velocity: its shape is [1, 3]");
+  expect_contains(message_of([&] { ParticleFile file(name); }),
+                  "/particles/layer/velocity: its shape is [1, 3]");
 }
 
 TEST(ParticleFile, WarnsOfOverlapsAndGoesOn) {
   ByHand hand;
-  hand.position = {0.1e-6, 1e-6, 1e-6, 4.9e-6, 1e-6, 1e-6};  // 0.2 um apart through the periodic side, radii 0.5 and 0.25
+  hand.position = {0.1e-6, 1e-6, 1e-6,
+                   4.9e-6, 1e-6, 1e-6};  // 0.2 um apart through the periodic side, radii 0.5 and 0.25
   testing::internal::CaptureStderr();
   const ParticleFile file(hand.write());
   const std::string said = testing::internal::GetCapturedStderr();
@@ -265,7 +274,8 @@ TEST(ParticleFile, RefusesDamageAndOtherKinds) {
   write_packing(name, layer, {}, {}, {});
   const std::string bytes = bytes_of(name);
   for (const double part : {0.1, 0.5, 0.9, 0.999}) {
-    put_bytes(folder / "cut.h5", bytes.substr(0, static_cast<std::size_t>(part * static_cast<double>(bytes.size()))));
+    put_bytes(folder / "cut.h5",
+              bytes.substr(0, static_cast<std::size_t>(part * static_cast<double>(bytes.size()))));
     EXPECT_THROW(ParticleFile(folder / "cut.h5"), FileError) << part;
   }
   ResultFile result;

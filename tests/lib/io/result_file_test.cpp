@@ -21,7 +21,11 @@ ResultFile example() {
   result.kind = "solids";
   result.datasets = {
       {"/solids/time", {3}, {0, 0.5, 1e3}, Dimension::Time, Dataset::Storage::Float64},
-      {"/solids/volume_fraction", {3, 2}, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, Dimension::VolumeFraction, Dataset::Storage::Float64},
+      {"/solids/volume_fraction",
+       {3, 2},
+       {0.1, 0.2, 0.3, 0.4, 0.5, 0.6},
+       Dimension::VolumeFraction,
+       Dataset::Storage::Float64},
       {"/solids/classes/mass", {1}, {1e-9}, Dimension::Mass, Dataset::Storage::Float64},
       {"/solids/count", {2}, {7, 123456789}, Dimension::Number, Dataset::Storage::Int64},
       {"/solids/pressure", {}, {101325}, Dimension::Pressure, Dataset::Storage::Float32},
@@ -37,7 +41,8 @@ TEST(ResultFile, ComesBackAsItWasWritten) {
   const fs::path file = fresh("a.h5");
   const ResultFile written = example();
   write_result(file, written);
-  const ResultFile read = read_result(file, "solids", {{"/solids/volume_fraction", Dimension::VolumeFraction}});
+  const ResultFile read =
+      read_result(file, "solids", {{"/solids/volume_fraction", Dimension::VolumeFraction}});
   ASSERT_EQ(read.datasets.size(), written.datasets.size());
   for (const auto& dataset : written.datasets) {
     const Dataset& back = read.require(dataset.path);
@@ -89,8 +94,9 @@ TEST(ResultFile, ConvertsOtherUnitsOfTheRightDimension) {
   EXPECT_DOUBLE_EQ(read.require("/dewatering/time").values[1], 120e3);
   EXPECT_DOUBLE_EQ(read.require("/dewatering/temperature").values[1], 353.15);
   EXPECT_DOUBLE_EQ(read.require("/dewatering/bare").values[0], 3e6);
-  const std::string refusal =
-      message_of([&] { read_result(file, "dewatering", {{"/dewatering/time", Dimension::Length}}); });
+  const std::string refusal = message_of([&] {
+    read_result(file, "dewatering", {{"/dewatering/time", Dimension::Length}});
+  });
   expect_contains(refusal, "3 ");
   expect_contains(refusal, "/dewatering/time");
   expect_contains(refusal, "\"min\" is not a unit of length");
@@ -98,15 +104,18 @@ TEST(ResultFile, ConvertsOtherUnitsOfTheRightDimension) {
 
 TEST(ResultFile, RefusesWhatCannotBeUsed) {
   const fs::path file = fresh("a.h5");
-  expect_contains(message_of([&] { read_result(file, "solids"); }), "3 " + file.string() + ": there is no such file");
+  expect_contains(message_of([&] { read_result(file, "solids"); }),
+                  "3 " + file.string() + ": there is no such file");
   expect_contains(message_of([&] { read_result(file.parent_path(), "solids"); }), "is a folder");
   put_bytes(file, "");
   expect_contains(message_of([&] { read_result(file, "solids"); }), "3 " + file.string());
   put_bytes(file, "time,flux\n");
   expect_contains(message_of([&] { read_result(file, "solids"); }), "is not a whole HDF5 file");
   write_result(file, example());
-  expect_contains(message_of([&] { read_result(file, "cluster"); }), "is a solids file, expected a cluster file");
-  expect_contains(message_of([&] { read_result(file, "solids").require("/solids/absent"); }), "/solids/absent is missing");
+  expect_contains(message_of([&] { read_result(file, "cluster"); }),
+                  "is a solids file, expected a cluster file");
+  expect_contains(message_of([&] { read_result(file, "solids").require("/solids/absent"); }),
+                  "/solids/absent is missing");
 }
 
 TEST(ResultFile, RefusesNumbersThatAreNotFinite) {
@@ -117,7 +126,8 @@ TEST(ResultFile, RefusesNumbersThatAreNotFinite) {
     out.write("/solids/time", {2}, values);
     out.commit();
   }
-  expect_contains(message_of([&] { read_result(file, "solids"); }), "3 " + file.string() + ": /solids/time: entry 1");
+  expect_contains(message_of([&] { read_result(file, "solids"); }),
+                  "3 " + file.string() + ": /solids/time: entry 1");
   ResultFile bad = example();
   bad.datasets[0].values[2] = std::nan("");
   EXPECT_THROW(write_result(file.parent_path() / "bad.h5", bad), std::logic_error);
@@ -138,7 +148,8 @@ TEST(ResultFile, RefusesANewerMajorVersion) {
   expect_contains(message_of([&] { read_result(file, "solids"); }), "format version 2 is newer");
 }
 
-// A file cut anywhere, or with any one byte changed, either is refused or gives the numbers that were written.
+// A file cut anywhere, or with any one byte changed, either is refused or gives the numbers that were
+// written.
 TEST(ResultFile, DamageNeverGivesOtherNumbers) {
   const fs::path whole = fresh("whole.h5"), damaged = whole.parent_path() / "damaged.h5";
   ResultFile result = example();
@@ -173,7 +184,8 @@ TEST(ResultFile, DamageNeverGivesOtherNumbers) {
 
 TEST(ResultFile, LeavesTheOldFileWhereTheNewOneCannotBeWritten) {
   const fs::path nowhere = fresh("x.h5").parent_path() / "absent_folder" / "x.h5";
-  expect_contains(message_of([&] { write_result(nowhere, example()); }), "4 " + nowhere.string() + ": cannot be written");
+  expect_contains(message_of([&] { write_result(nowhere, example()); }),
+                  "4 " + nowhere.string() + ": cannot be written");
   const std::string device = message_of([&] { write_result("/dev/null", example()); });
   expect_contains(device, "4 /dev/null");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));

@@ -14,7 +14,8 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-const std::vector<ObservableInfo> observables{{"thickness", Dimension::Length}, {"contacts", Dimension::Number}};
+const std::vector<ObservableInfo> observables{{"thickness", Dimension::Length},
+                                              {"contacts", Dimension::Number}};
 const Provenance provenance{"pigment-consolidate", "seed: 1\n", {{"packing", "hash"}}};
 
 Layer first_layer() {
@@ -63,7 +64,8 @@ TEST(TrajectoryWriter, FramesComeBackAsTheyWereWritten) {
         EXPECT_DOUBLE_EQ(read.position[p][k], written.position[p][k]);
         EXPECT_FLOAT_EQ(static_cast<float>(read.velocity[p][k]), static_cast<float>(written.velocity[p][k]));
       }
-    EXPECT_FLOAT_EQ(static_cast<float>(read.angular_velocity[0].z()), static_cast<float>(i > 0 ? 1e-3 * std::sqrt(i + 2.0) : 0));
+    EXPECT_FLOAT_EQ(static_cast<float>(read.angular_velocity[0].z()),
+                    static_cast<float>(i > 0 ? 1e-3 * std::sqrt(i + 2.0) : 0));
     EXPECT_DOUBLE_EQ(file.observable("thickness").at(static_cast<std::size_t>(i)), 10 - 0.1 * i);
   }
   EXPECT_EQ(file.observable_time("contacts").size(), 50u);
@@ -124,7 +126,8 @@ TEST(TrajectoryWriter, EveryCutOfTheJournalIsNoticed) {
   }
   put_bytes(journal, bytes);
   EXPECT_EQ(message_of([&] { open(output, 3); }), "no error");
-  expect_contains(message_of([&] { open(output, 4); }), "holds 3 whole frames, the checkpoint goes on from 4; --restart");
+  expect_contains(message_of([&] { open(output, 4); }),
+                  "holds 3 whole frames, the checkpoint goes on from 4; --restart");
   fs::remove(journal);
   expect_contains(message_of([&] { open(output, 3); }), "is missing");
 }
@@ -155,7 +158,8 @@ TEST(TrajectoryWriter, AFailedRunLeavesItsFramesUnderAnotherName) {
   const ParticleFile file(folder / "t.failed.h5");
   EXPECT_EQ(file.outcome(), "failed");
   EXPECT_EQ(file.frame_count(), 4u);
-  EXPECT_EQ(h5::InputFile(folder / "t.failed.h5").text_attribute("/pigment", "reason"), "the step fell below 1e-12 s");
+  EXPECT_EQ(h5::InputFile(folder / "t.failed.h5").text_attribute("/pigment", "reason"),
+            "the step fell below 1e-12 s");
   writer.finish("until");
   EXPECT_FALSE(fs::exists(folder / "t.failed.h5"));
 }
@@ -166,11 +170,20 @@ TEST(TrajectoryWriter, WritesNothingThatIsNotFinite) {
   append(writer, 0, 1);
   Frame frame = frame_at(1);
   frame.position[1].y() = std::nan("");
-  expect_contains(message_of([&] { writer.append(frame, {1, 1}); }), "1 step 10, time 0.0001 s: the position of the particle with id 1");
+  expect_contains(message_of([&] {
+                    writer.append(frame, {1, 1});
+                  }),
+                  "1 step 10, time 0.0001 s: the position of the particle with id 1");
   frame = frame_at(1);
   frame.velocity[0].x() = 1e60;  // finite, but not in 32 bits
-  expect_contains(message_of([&] { writer.append(frame, {1, 1}); }), "the velocity of the particle with id 0");
-  expect_contains(message_of([&] { writer.append(frame_at(1), {1, std::numeric_limits<double>::infinity()}); }), "contacts");
+  expect_contains(message_of([&] {
+                    writer.append(frame, {1, 1});
+                  }),
+                  "the velocity of the particle with id 0");
+  expect_contains(message_of([&] {
+                    writer.append(frame_at(1), {1, std::numeric_limits<double>::infinity()});
+                  }),
+                  "contacts");
   EXPECT_EQ(writer.frame_count(), 1u);
 }
 
