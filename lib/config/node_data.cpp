@@ -142,8 +142,8 @@ Tree Node::Data::resolved(const std::filesystem::path* folder) const {
     const fs::path given(text);
     if (folder == nullptr) return given.filename().string();
     if (given.is_absolute()) return text;
-    const fs::path from = fs::weakly_canonical(folder->empty() ? fs::path(".") : *folder);
-    const fs::path to = fs::weakly_canonical(source->folder / given);
+    const fs::path from = fs::weakly_canonical(fs::absolute(folder->empty() ? fs::path(".") : *folder));
+    const fs::path to = fs::weakly_canonical(fs::absolute(source->folder / given));
     return to.lexically_relative(from).string();
   };
   for (const Record& r : records) {
