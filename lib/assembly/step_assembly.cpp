@@ -73,6 +73,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   position_.resize(n);
   protrusion_guess_.assign(n, 0.0);
   protrusion_end_.assign(n, 0.0);
+  holding_force_.assign(n, 0.0);
   const std::vector<int> count = chunk_of_pairs(topology_);
   force_.resize(count.size());
   stiffness_.resize(count.size());
@@ -137,8 +138,8 @@ StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
     }
   // The plane stops particles whatever the forces.
   if (substrate_geometry_[k].gap < 0) {
-    s.force -= forces::constraint_stiffness * substrate_geometry_[k].gap;
-    s.stiffness += forces::constraint_stiffness;
+    s.force -= forces::contact_stiffness * substrate_geometry_[k].gap;
+    s.stiffness += forces::contact_stiffness;
   }
   return s;
 }
@@ -150,7 +151,7 @@ StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
   if (interactions_.lubrication())
     s.resistance = resistance::free_surface_increment(a, std::max(gap, surface.roughness)).perpendicular;
-  if (protrusion_guess_[k] > 0) {
+  if (protrusion_guess_[k] > held) {
     const forces::SpringForce spring = forces::surface_spring(surface, a, protrusion_guess_[k]);
     s.force = spring.force;
     s.stiffness = spring.stiffness;
@@ -201,15 +202,14 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
         const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
         f[2] -= mu * s.resistance * (film_.absorption + (squeeze ? 0 : film_.evaporation));
       }
+      // protrusion at the end: p1 = z0 + a + dt U_z + roughness - H1
+      const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - film_.height_end;
       if (s.stiffness > 0) {
-        // protrusion at the end: p1 = z0 + a + dt U_z + roughness - H1
-        const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - film_.height_end;
         f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
         t.along += dt_ * s.stiffness;
-        // On the stiff line the particle moves with the surface to within 1e-9 um.
-        if (s.stiffness >= forces::constraint_stiffness)
-          system.reference[static_cast<std::size_t>(k) * D + 2] = (s.anchor - without_motion) / dt_;
       }
+      system.held[k] = protrusion_guess_[k] == held;
+      system.held_velocity[k] = system.held[k] ? -without_motion / dt_ : 0;
     }
     system.particle[k] = t;
   }
@@ -268,7 +268,8 @@ void StepAssembly::build(solve::PairSystem& system) const {
   system.squeeze.resize(chunks);
   const std::size_t D = system.unknowns_per_particle();
   std::vector<double> sum((n + topology_.halo_count()) * D);
-  system.reference.assign(interactions_.free_surface ? n * D : 0, 0.0);
+  system.held.assign(interactions_.free_surface ? n : 0, 0);
+  system.held_velocity.assign(interactions_.free_surface ? n : 0, 0.0);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
@@ -299,10 +300,12 @@ void StepAssembly::gap_velocities(const std::vector<double>& u, std::vector<doub
   }
 }
 
-GapCheck StepAssembly::refine(const std::vector<double>& u) {
-  const std::size_t D = interactions_.rotation() ? 6 : 3, n = radius_.size();
+GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u) {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
   const int chunks = topology_.chunks().count();
   std::vector<GapCheck> checks(chunks);
+  std::vector<double> row;
+  if (interactions_.free_surface) solve::apply(system, u, row);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
@@ -343,24 +346,24 @@ GapCheck StepAssembly::refine(const std::vector<double>& u) {
         const double protrusion = z + a + interactions_.free_surface->roughness - film_.height_end;
         protrusion_end_[k] = protrusion;
         double& guess = protrusion_guess_[k];
-        if (guess > 0) {
+        const double before = guess;
+        if (guess == held) {
+          protrusion_end_[k] = 0;
+          // What the row leaves is the force that keeps the particle at the surface.
+          holding_force_[k] = system.right_hand_side[k * D + 2] - row[k * D + 2];
+          if (holding_force_[k] < 0) guess = 0;  // the surface lets go
+          else if (holding_force_[k] > forces::rigid_load(*interactions_.free_surface, a)) guess = 2 * forces::rigid_protrusion;
+        } else if (guess > 0) {
           const forces::SpringForce spring = forces::surface_spring(*interactions_.free_surface, a, guess);
           const double taken = spring.force + spring.stiffness * (protrusion - guess);
-          if (taken < 0) {
-            guess = 0;  // the surface lets go
-            check.refine = true;
-          } else {
-            const double true_force = forces::surface_spring(*interactions_.free_surface, a, protrusion).force;
-            // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle.
-            if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4) {
-              guess = std::max(protrusion, 1e-12);
-              check.refine = true;
-            }
-          }
+          const double true_force = forces::surface_spring(*interactions_.free_surface, a, protrusion).force;
+          if (protrusion <= forces::rigid_protrusion) guess = held;
+          // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle.
+          else if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4) guess = protrusion;
         } else if (protrusion > 0) {
-          guess = 1e-12;  // caught: on the stiff line, whose slope is all that counts
-          check.refine = true;
+          guess = held;  // caught
         }
+        if (guess != before) check.refine = true;
       }
     }
   }
@@ -372,7 +375,6 @@ GapCheck StepAssembly::refine(const std::vector<double>& u) {
       all.worst_pair = check.worst_pair;
     }
   }
-  (void)n;
   return all;
 }
 
@@ -386,10 +388,9 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
       const SurfaceState s = surface_state(k);
       const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
       total.surface += mu * s.resistance * (uz + film_.absorption + (squeeze ? 0 : film_.evaporation));
-      if (s.stiffness > 0) {
-        total.surface += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
-        ++total.contacts;
-      }
+      if (s.stiffness > 0) total.surface += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
+      if (protrusion_guess_[k] == held) total.surface += holding_force_[k];
+      if (protrusion_guess_[k] > 0) ++total.contacts;
     }
     if (interactions_.substrate) {
       const SubstrateState s = substrate_state(k);
@@ -409,7 +410,7 @@ std::vector<double> StepAssembly::protrusions() const {
   if (interactions_.free_surface)
     for (std::size_t k = 0; k < order_.size(); ++k)
       // A held particle stays held until the force would pull; a free one starts the next step free.
-      result[order_[k]] = protrusion_guess_[k] > 0 ? std::max(protrusion_end_[k], 1e-12) : 0;
+      result[order_[k]] = protrusion_guess_[k] > held ? std::max(protrusion_end_[k], 2 * held) : protrusion_guess_[k];
   return result;
 }
 

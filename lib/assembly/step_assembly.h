@@ -34,7 +34,6 @@ struct GapCheck {
   bool refine = false;         // solve again
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
-  double gap_velocity_error = 0;  // set by the stepper
 };
 
 class StepAssembly {
@@ -48,8 +47,8 @@ class StepAssembly {
              const std::vector<double>& protrusion);
   // Fills the system for the current guesses.
   void build(solve::PairSystem&) const;
-  // Judges a solution (engine order) and moves the guesses towards it.
-  GapCheck refine(const std::vector<double>& solution);
+  // Judges a solution (engine order) of the system built last and moves the guesses towards it.
+  GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution);
 
   const solve::PairTopology& topology() const { return topology_; }
   std::size_t pair_count() const { return pairs_.size(); }
@@ -64,7 +63,7 @@ class StepAssembly {
 
  private:
   struct SurfaceState {
-    double gap_begin, resistance, force, stiffness, anchor;  // force + stiffness (p1 - anchor)
+    double gap_begin, resistance, force, stiffness, anchor;  // spring: force + stiffness (p1 - anchor); none while held
   };
   struct SubstrateState {
     double gap_begin, force, stiffness;
@@ -94,7 +93,10 @@ class StepAssembly {
   std::vector<Vec3> position_, external_force_;
   std::vector<Vec3> normal_;               // one a pair
   std::vector<double> gap_begin_;          // one a pair
-  std::vector<double> protrusion_guess_, protrusion_end_;
+  // What each particle is to the surface: free (0), held exactly (`held`), or lifted on the spring by so much, um; and how it
+  // came out, with the force of those held, pN.
+  static constexpr double held = 1e-12;
+  std::vector<double> protrusion_guess_, protrusion_end_, holding_force_;
   mutable std::vector<std::vector<double>> force_, stiffness_;  // one array a chunk
   mutable std::vector<resistance::PairScalars> scalars_;        // at gap_begin_, one a pair
 };

@@ -11,12 +11,16 @@ struct SpringForce {
 };
 
 // Arc: Delta = 2 a theta, cos theta = 1 - h/a, as printed; arc minus chord: 2 a (theta - sin theta), what the surface
-// really gains in length. h <= 0 and h >= 2a (the particle has left): no force.
-// The arc's slope is infinite at h = 0; up to where the law itself is softer it is replaced by a stiff straight line, whose
-// protrusion under the loads of a drying layer (below 100 pN) is less than 1e-5 nm. Model `constraint` is that line alone.
+// really gains in length. h <= 0 and h >= 2a (the particle has left): no force. The arc's slope is infinite at h = 0.
 SpringForce surface_spring(const FreeSurfaceParameters&, double radius, double protrusion);
 
-// pN/um.
-inline constexpr double constraint_stiffness = 1e10;
+// A protrusion that is nothing (0.01 nm, a tenth of an atom): as long as the load would not lift the particle further than
+// this, the surface holds it exactly, as a constraint. At 72 mN/m the arc does so up to 300 pN on the smallest particles.
+inline constexpr double rigid_protrusion = 1e-5;  // um
+// The load up to which the particle is held exactly, pN; infinite for model `constraint`.
+double rigid_load(const FreeSurfaceParameters&, double radius);
+
+// Slope with which the substrate pushes back a sphere that no other force keeps off it, pN/um.
+inline constexpr double contact_stiffness = 1e8;
 
 }  // namespace pigment::forces

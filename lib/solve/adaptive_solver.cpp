@@ -31,6 +31,7 @@ std::size_t take(const std::vector<std::int64_t>& in, std::size_t at, std::vecto
 
 std::vector<std::int64_t> pack(const PairSystem& system) {
   std::vector<std::int64_t> out{system.rotation ? 1 : 0};
+  put(out, system.held);
   put(out, system.particle);
   for (const auto& chunk : system.full) put(out, chunk);
   for (const auto& chunk : system.squeeze) put(out, chunk);
@@ -43,7 +44,8 @@ PairSystem unpack(const std::vector<std::int64_t>& in, const PairTopology& topol
   system.rotation = in.at(0) != 0;
   system.full.resize(topology.chunks().count());
   system.squeeze.resize(topology.chunks().count());
-  std::size_t at = take(in, 1, system.particle);
+  std::size_t at = take(in, 1, system.held);
+  at = take(in, at, system.particle);
   for (auto& chunk : system.full) at = take(in, at, chunk);
   for (auto& chunk : system.squeeze) at = take(in, at, chunk);
   return system;

@@ -33,7 +33,11 @@ template <int D>
 cholmod_sparse* assemble(const PairSystem& system, cholmod_common* common) {
   const PairTopology& topology = *system.topology;
   const std::size_t n = topology.particles();
-  const std::vector<double> diagonal = diagonal_blocks(system);
+  std::vector<double> diagonal = diagonal_blocks(system);
+  const auto is_held = [&](std::size_t k) { return !system.held.empty() && system.held[k]; };
+  for (std::size_t k = 0; k < n; ++k)
+    if (is_held(k))
+      for (int d = 0; d < D; ++d) diagonal[k * D * D + 2 * D + d] = diagonal[k * D * D + d * D + 2] = d == 2 ? 1 : 0;
   struct Block {
     std::int32_t row;
     double value[D * D];  // column-major
@@ -48,6 +52,10 @@ cholmod_sparse* assemble(const PairSystem& system, cholmod_common* common) {
         unit[d] = 1;
         kernel(p, unit, zero, yi, yj);
         for (int r = 0; r < D; ++r) block.value[d * D + r] = yj[r];
+      }
+      for (int d = 0; d < D; ++d) {
+        if (is_held(p.i)) block.value[2 * D + d] = 0;
+        if (is_held(p.j)) block.value[d * D + 2] = 0;
       }
       columns[p.i].push_back(block);
     };

@@ -15,12 +15,14 @@ struct BlockJacobi {
   std::vector<double> factor;
 
   explicit BlockJacobi(const PairSystem& system) {
-    const std::vector<double> blocks = diagonal_blocks(system);
+    std::vector<double> blocks = diagonal_blocks(system);
     const std::size_t n = blocks.size() / (D * D);
     factor.resize(n * entries);
 #pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < n; ++k) {
-      const double* a = &blocks[k * D * D];
+      double* a = &blocks[k * D * D];
+      if (!system.held.empty() && system.held[k])
+        for (int d = 0; d < D; ++d) a[2 * D + d] = a[d * D + 2] = d == 2 ? 1 : 0;
       double* l = &factor[k * entries];
       for (int r = 0; r < D; ++r)
         for (int c = 0; c <= r; ++c) {
@@ -58,17 +60,20 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
   const std::size_t n = topology.particles(), size = n * D;
   const int count = topology.chunks().count();
   const std::vector<double>& b = system.right_hand_side;
+  // Held particles: their velocities are given, and what they contribute to the other rows joins b.
+  const bool held = !system.held.empty();
   bool guess = x.size() == size;
   if (!guess) x.assign(size, 0.0);
-  const bool reference = !system.reference.empty();
-  if (reference) {
+  std::vector<double> given;
+  if (held) {
     guess = true;
-    for (std::size_t q = 0; q < size; ++q)
-      if (system.reference[q] != 0) x[q] = system.reference[q];
+    given.assign(size, 0.0);
+    for (std::size_t k = 0; k < n; ++k)
+      if (system.held[k]) x[k * D + 2] = given[k * D + 2] = system.held_velocity[k];
   }
   const BlockJacobi<D> preconditioner(system);
   std::vector<double> r(size), z(size), p(size), ap((n + topology.halo_count()) * D);
-  std::vector<double> scale(reference ? ap.size() : 0);
+  std::vector<double> scale(held ? ap.size() : 0);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count);
   SolveReport report;
   double rz = 0, bb = 0, target = 0;
@@ -81,9 +86,9 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, ap.data());
     }
-    if (reference) {
+    if (held) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, system.reference.data(), scale.data());
+      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, given.data(), scale.data());
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, scale.data());
     }
@@ -92,12 +97,14 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
       double own_bb = 0, own_rz = 0;
       for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k) {
         double s[D], zs[D];
-        for (int d = 0; d < D; ++d) s[d] = b[k * D + d] - (reference ? scale[k * D + d] : 0.0);
+        for (int d = 0; d < D; ++d) s[d] = b[k * D + d] - (held ? scale[k * D + d] : 0.0);
+        if (held && system.held[k]) s[2] = 0;
         preconditioner.solve(k, s, zs);
         for (int d = 0; d < D; ++d) {
           own_bb += s[d] * zs[d];
           r[k * D + d] = b[k * D + d] - (guess ? ap[k * D + d] : 0.0);
         }
+        if (held && system.held[k]) r[k * D + 2] = 0;
         preconditioner.solve(k, &r[k * D], &z[k * D]);
         for (int d = 0; d < D; ++d) {
           own_rz += r[k * D + d] * z[k * D + d];
@@ -120,6 +127,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) {
         gather_halo<D>(topology, c, ap.data());
+        mask_held<D>(system, c, ap.data());
         double own = 0;
         for (int q = topology.chunks().begin[c] * D; q < topology.chunks().begin[c + 1] * D; ++q) own += p[q] * ap[q];
         partial_pap[c] = own;
@@ -162,13 +170,21 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
 SolveReport solve_with_factor(const PairSystem& system, std::vector<double>& x, const ConjugateGradientOptions& options,
                               CholmodFactor& factor) {
   const std::size_t size = system.right_hand_side.size();
+  const std::size_t n = system.topology->particles(), D = size / n;
   std::vector<double> r = system.right_hand_side, s = r, z, p, ap;
   if (x.size() != size) x.assign(size, 0.0);
-  if (!system.reference.empty()) {
-    for (std::size_t q = 0; q < size; ++q)
-      if (system.reference[q] != 0) x[q] = system.reference[q];
-    apply(system, system.reference, ap);
+  const auto mask = [&](std::vector<double>& v) {
+    if (!system.held.empty())
+      for (std::size_t k = 0; k < n; ++k)
+        if (system.held[k]) v[k * D + 2] = 0;
+  };
+  if (!system.held.empty()) {
+    std::vector<double> given(size, 0.0);
+    for (std::size_t k = 0; k < n; ++k)
+      if (system.held[k]) x[k * D + 2] = given[k * D + 2] = system.held_velocity[k];
+    apply(system, given, ap);
     for (std::size_t q = 0; q < size; ++q) s[q] -= ap[q];
+    mask(s);
   }
   const auto dot = [size](const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
@@ -179,18 +195,22 @@ SolveReport solve_with_factor(const PairSystem& system, std::vector<double>& x, 
   const double scale = dot(s, z), target = options.tolerance * options.tolerance * scale;
   apply(system, x, ap);
   for (std::size_t q = 0; q < size; ++q) r[q] -= ap[q];
+  mask(r);
   factor.solve(r, z);
+  mask(z);
   double rz = dot(r, z);
   p = z;
   SolveReport report;
   while (rz > target && report.iterations < options.max_iterations) {
     apply(system, p, ap);
+    mask(ap);
     const double alpha = rz / dot(p, ap);
     for (std::size_t q = 0; q < size; ++q) {
       x[q] += alpha * p[q];
       r[q] -= alpha * ap[q];
     }
     factor.solve(r, z);
+    mask(z);
     const double next = dot(r, z), beta = next / rz;
     for (std::size_t q = 0; q < size; ++q) p[q] = z[q] + beta * p[q];
     rz = next;

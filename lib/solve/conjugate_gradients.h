@@ -12,7 +12,7 @@ namespace pigment::solve {
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
-  double residual = -1;  // sqrt(r M^-1 r / s M^-1 s), s = b - A reference
+  double residual = -1;  // sqrt(r M^-1 r / b M^-1 b), b with what held particles contribute
   std::string message;
 };
 

@@ -91,6 +91,14 @@ inline void apply_chunk(const PairSystem& system, int chunk, const double* x, do
     add_squeeze_pair<D>(p, x + p.i * D, x + p.j * D, y + p.i * D, y + static_cast<std::size_t>(p.target) * D);
 }
 
+// Takes the given velocities out of a residual or a search direction.
+template <int D>
+inline void mask_held(const PairSystem& system, int chunk, double* y) {
+  if (system.held.empty()) return;
+  for (int k = system.topology->chunks().begin[chunk]; k < system.topology->chunks().begin[chunk + 1]; ++k)
+    if (system.held[k]) y[k * D + 2] = 0;
+}
+
 template <int D>
 inline void gather_halo(const PairTopology& topology, int chunk, double* y) {
   const std::size_t n = topology.particles();

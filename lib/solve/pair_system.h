@@ -64,10 +64,10 @@ struct PairSystem {
   std::vector<std::vector<FullPair>> full;
   std::vector<std::vector<SqueezePair>> squeeze;
   std::vector<double> right_hand_side;  // D a particle
-  // Velocities that are known beforehand to within a stiff constraint's compliance (a particle held by the surface moves with
-  // it), zero elsewhere; empty: all zero. The starting guess takes them, and residuals are judged against b - A reference:
-  // against b itself the constraint's huge and all but cancelling entries would hide everything else.
-  std::vector<double> reference;
+  // Particles whose velocity along z is given (held by the free surface), not solved for: 1 a particle, empty: none; and the
+  // velocities. The force that holds one is what its row leaves: b - A x.
+  std::vector<char> held;
+  std::vector<double> held_velocity;
 
   int unknowns_per_particle() const { return rotation ? 6 : 3; }
 };

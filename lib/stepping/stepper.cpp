@@ -176,7 +176,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
       report.iterations += solve.iterations;
       ++report.solves;
       if (!solve.converged) break;
-      check = d.assembly->refine(solution);
+      check = d.assembly->refine(d.system, solution);
       if (!check.refine) {
         good = true;
         break;

@@ -162,20 +162,41 @@ TEST(ConjugateGradients, SolvesToTheToleranceAskedFor) {
   }
 }
 
-TEST(ConjugateGradients, StiffConstraintDoesNotHideTheRest) {
-  Example e;
-  const int n = 80;
-  make(e, n, true, 9, 0.05);
-  // Particle 7 is tied to a velocity of 3 along z by a penalty of 1e10.
-  e.system.particle[7].along += 1e10;
-  e.system.right_hand_side[7 * 6 + 2] += 3e10;
-  e.system.reference.assign(n * 6, 0.0);
-  e.system.reference[7 * 6 + 2] = 3;
-  const MatrixXd a = dense(e.system, n);
-  const VectorXd exact = a.ldlt().solve(Eigen::Map<const VectorXd>(e.system.right_hand_side.data(), a.rows()));
-  std::vector<double> x;
-  ASSERT_TRUE(conjugate_gradients(e.system, x, {1e-8, 5000}).converged);
-  EXPECT_LT((Eigen::Map<VectorXd>(x.data(), a.rows()) - exact).norm() / exact.norm(), 1e-5);
+TEST(ConjugateGradients, HeldParticlesKeepTheirVelocityAndTheRestBalances) {
+  for (bool with_factor : {false, true}) {
+    Example e;
+    const int n = 80;
+    make(e, n, true, 9, 0.05);
+    e.system.held.assign(n, 0);
+    e.system.held_velocity.assign(n, 0.0);
+    for (int k : {7, 30}) {
+      e.system.held[k] = 1;
+      e.system.held_velocity[k] = 3 + k;
+    }
+    // The rows and columns of the given velocities are taken out by hand.
+    MatrixXd a = dense(e.system, n);
+    VectorXd b = Eigen::Map<const VectorXd>(e.system.right_hand_side.data(), a.rows());
+    for (int k : {7, 30}) b -= a.col(k * 6 + 2) * (3 + k);
+    for (int k : {7, 30}) {
+      a.row(k * 6 + 2).setZero();
+      a.col(k * 6 + 2).setZero();
+      a(k * 6 + 2, k * 6 + 2) = 1;
+      b(k * 6 + 2) = 3 + k;
+    }
+    const VectorXd exact = a.ldlt().solve(b);
+    CholmodFactor factor;
+    if (with_factor) {
+      ASSERT_EQ(factor.factorize(e.system), "");
+    }
+    std::vector<double> x;
+    const SolveReport report = conjugate_gradients(e.system, x, {1e-12, 5000}, with_factor ? &factor : nullptr);
+    ASSERT_TRUE(report.converged);
+    EXPECT_LT((Eigen::Map<VectorXd>(x.data(), a.rows()) - exact).norm() / exact.norm(), 1e-9);
+    EXPECT_EQ(x[7 * 6 + 2], 10);
+    if (with_factor) {
+      EXPECT_LE(report.iterations, 2);  // its own factor
+    }
+  }
 }
 
 TEST(ConjugateGradients, SameBytesAtAnyThreadCount) {
