@@ -67,6 +67,17 @@ TEST(Species, NormalIsCutAtThreeStandardDeviations) {
             std::string::npos);
 }
 
+TEST(Species, TablesMayBeCut) {
+  const SizeLaw whole = read(one("{law: table, file: F.csv}"))[0].size;
+  EXPECT_EQ(whole.file, "F.csv");
+  EXPECT_EQ(whole.min, 0);
+  EXPECT_EQ(whole.max, 0);
+  const SizeLaw cut = read(one("{law: table, file: F.csv, min: 0.2 um, max: 2 um}"))[0].size;
+  EXPECT_DOUBLE_EQ(cut.min, 0.2);
+  EXPECT_DOUBLE_EQ(cut.max, 2);
+  EXPECT_NE(refusal(one("{law: table, file: F.csv, min: 3 um, max: 2 um}")).find("must be below max"), std::string::npos);
+}
+
 TEST(Species, RefusesWhatCannotBe) {
   EXPECT_NE(refusal(one("{law: lognormal, mean: 1 um, standard_deviation: 1 um, min: 3 um, max: 2 um}"))
                 .find("particles.0.size.min: must be below max"),
