@@ -16,7 +16,10 @@ SteppingParameters read_stepping(config::Node node) {
   p.tolerance = node.number("tolerance", 1e-3, config::strictly_between(0, 1));
   p.until = node.optional_quantity("until", Dimension::Time, config::positive());
   p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"until", P::StopWhen::Until}}, "immobile");
-  p.solver_tolerance = node.number("solver_tolerance", 1e-4, config::strictly_between(0, 0.1));
+  if (node.has("solver_tolerance") && !node.is_word("solver_tolerance", "auto"))
+    p.solver_tolerance = node.number("solver_tolerance", config::strictly_between(0, 0.1));
+  else
+    node.accept_word("solver_tolerance", "auto");
   p.immobile_rate = node.number("immobile_rate", 1e-2, config::strictly_between(0, 1));
   p.immobile_window = node.quantity("immobile_window", Dimension::Time, "50 ms", config::positive());
   p.protruding_limit = node.number("protruding_limit", 1e-2, config::strictly_between(0, 1));

@@ -14,7 +14,7 @@ struct SteppingParameters {
   std::optional<double> until;       // ms; absent: the end of the dewatering curve
   enum class StopWhen { Immobile, Until };
   StopWhen stop_when = StopWhen::Until;
-  double solver_tolerance = 1e-4;    // relative residual of each solve
+  std::optional<double> solver_tolerance;  // relative residual of each solve; absent: 1e-4, with Brownian motion 1e-3
   double immobile_rate = 1e-2;       // immobile: mass displacement between heights over the window is below this share of |dH|
   double immobile_window = 50;       // ms; in whole output frames, at least one (model/redistribution.h)
   double protruding_limit = 1e-2;    // first critical concentration: more than this share of the solids is above the surface

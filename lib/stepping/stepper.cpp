@@ -156,12 +156,15 @@ StepReport Stepper::advance(RunState& state, double longest) {
   double dt = std::min(state.preferred_step, longest);
   if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
   StepReport report;
-  std::vector<double> guess = d.gathered(state.velocity, state.angular_velocity);
+  // Noise makes the last velocities a worse guess than none.
+  std::vector<double> guess;
+  if (!noisy) guess = d.gathered(state.velocity, state.angular_velocity);
   if (!noisy && state.last_step > 0) {
     const std::vector<double> before = d.gathered(state.previous_velocity, state.previous_angular_velocity);
     for (std::size_t q = 0; q < guess.size(); ++q) guess[q] += guess[q] - before[q];
   }
-  const solve::ConjugateGradientOptions options{problem.stepping.solver_tolerance, 5000};
+  // One step's noise moves particles by nanometres either way: a thousandth of it is far below its own weak error.
+  const solve::ConjugateGradientOptions options{problem.stepping.solver_tolerance.value_or(noisy ? 1e-3 : 1e-4), 5000};
   for (;; ++report.rejected) {
     const assembly::Film film = d.film(state.time, state.time + dt);
     const Vec3Array force = noisy ? d.brownian_force(state.step, dt, liquid) : Vec3Array{};
@@ -218,7 +221,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
     if (shorter < shortest_step) d.give_up(state, dt, solve, check);
     dt = shorter;
     if (!fixed && !noisy) state.preferred_step = dt;
-    guess = d.gathered(state.velocity, state.angular_velocity);
+    if (!noisy) guess = d.gathered(state.velocity, state.angular_velocity);
   }
 }
 
