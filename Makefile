@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench studies install clean format help dependencies configure FORCE
+.PHONY: all build test bench speed studies install clean format help dependencies configure FORCE
 
 all: study-drying
 	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
@@ -21,6 +21,7 @@ help:
 	@echo 'make build           install what is missing, build the tools into $(BUILD)/bin'
 	@echo 'make test            build, run all tests'
 	@echo 'make bench           build, run the benchmarks'
+	@echo 'make speed           build, measure wall time against error'
 	@echo 'make study-NAME      run one study; SIZE=quick or SIZE=full, -j N, LAUNCH="srun -n1"'
 	@echo '                     studies: $(STUDIES)'
 	@echo 'make studies         run all of them'
@@ -49,6 +50,10 @@ test: configure
 bench: configure
 	cmake --build $(BUILD) --parallel $(JOBS) --target all benchmarks
 	cd $(BUILD)/bench && for program in ./bench_*; do "$$program" || exit 1; done
+
+# Wall times and errors of packing and stepping, as in docs/speed.md. Nothing else should run beside it.
+speed: build
+	workflows/speed/measure.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
 
 install: build
 	DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)'
