@@ -6,19 +6,20 @@ namespace pigment::report {
 namespace {
 
 // Series colours: hues apart, lightness uneven, so that they stay apart without colour vision and on paper.
-std::string palette(double lift) {
+std::string palette(const double (&lightness)[8]) {
   static constexpr double hues[8] = {252, 48, 158, 352, 88, 205, 300, 22};
-  static constexpr double lightness[8] = {0.52, 0.63, 0.50, 0.56, 0.66, 0.62, 0.46, 0.50};
   std::string out;
   for (int i = 0; i < 8; ++i)
     out += fmt::format("--s{}:{};", i + 1,
-                       to_hex(from_oklch(lightness[i] + lift, i == 4 || i == 5 ? 0.115 : 0.15, hues[i])));
+                       to_hex(from_oklch(lightness[i], i == 4 || i == 5 ? 0.115 : 0.15, hues[i])));
   return out;
 }
 
 std::string palette_style() {
-  return ":root{" + palette(0) + "}\n@media (prefers-color-scheme:dark){@media screen{:root{" +
-         palette(0.19) + "}}}\n";
+  static constexpr double on_light[8] = {0.52, 0.63, 0.50, 0.56, 0.66, 0.62, 0.46, 0.50};
+  static constexpr double on_dark[8] = {0.70, 0.74, 0.68, 0.70, 0.88, 0.80, 0.66, 0.62};
+  return ":root{" + palette(on_light) + "}\n@media screen and (prefers-color-scheme:dark){:root{" +
+         palette(on_dark) + "}}\n";
 }
 
 }  // namespace

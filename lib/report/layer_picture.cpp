@@ -199,14 +199,12 @@ Image draw_layer(const Layer& layer, const ParticleColours& colours, const Pictu
 
   SphereScene scene;
   scene.spheres = spheres_of(layer, colours, s, repeat_x, repeat_y);
-  // Whole spheres stand out of the cell's faces: substrate and liquid reach as far as they do.
-  Box around{{0, 0, 0}, {wide, deep, cell.height}};
+  // Whole spheres stand out of the cell's faces by up to the largest radius: so do substrate and liquid, in
+  // every frame alike.
+  double overhang = 0;
   if (!s.sawn)
-    for (const Sphere& sphere : scene.spheres)
-      for (int k = 0; k < 2; ++k) {
-        around.lower[k] = std::min(around.lower[k], sphere.centre[k] - sphere.radius);
-        around.upper[k] = std::max(around.upper[k], sphere.centre[k] + sphere.radius);
-      }
+    for (const double a : layer.particles.radius) overhang = std::max(overhang, a);
+  const Box around{{-overhang, -overhang, 0}, {wide + overhang, deep + overhang, cell.height}};
   Box shown = around;
   shown.lower.z() = s.substrate ? -slab : 0.0;
   shown.upper.z() = shown_top;
@@ -244,7 +242,8 @@ Image draw_layer(const Layer& layer, const ParticleColours& colours, const Pictu
   if (s.scale_bar && camera.eye_distance <= 0) draw_scale_bar(image, camera, margin, bottom, text_height);
   if (s.colour_bar) {
     const double length = std::clamp(0.4 * s.width, 60.0, 26 * text_height);
-    draw_colour_bar(image, colours, s.width - margin - length, s.width - margin, bottom, text_height);
+    const double right = s.width - margin - 0.6 * text_height;  // room for half of the last number
+    draw_colour_bar(image, colours, right - length, right, bottom, text_height);
   }
   return image;
 }

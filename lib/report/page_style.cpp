@@ -79,20 +79,22 @@ svg .pick{stroke:var(--card);stroke-width:1.5}
 .pictures figcaption{font-size:.88rem;color:var(--soft);margin-top:.4rem;text-align:center}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-size:.9rem;margin-top:.6rem;min-width:50%}
-th,td{text-align:left;padding:.35rem 1.1rem .35rem 0;border-bottom:1px solid var(--rule);vertical-align:top;font-variant-numeric:tabular-nums;overflow-wrap:anywhere}
+th,td{text-align:left;padding:.35rem 1.1rem .35rem 0;border-bottom:1px solid var(--rule);vertical-align:top;font-variant-numeric:tabular-nums}
 th{color:var(--soft);font-weight:600;white-space:nowrap}
 details{margin-top:.8rem;border:1px solid var(--rule);border-radius:8px;background:var(--card);padding:.1rem .9rem}
 summary{cursor:pointer;padding:.45rem 0;font-size:.93rem}
 pre{margin:.2rem 0 .8rem;overflow-x:auto;font:13px/1.5 ui-monospace,SFMono-Regular,Menlo,"DejaVu Sans Mono",monospace;color:var(--soft)}
 .remark{border-left:3px solid var(--mark);padding:.3rem .9rem;color:var(--ink)!important}
 @media (max-width:720px){.pictures{flex-wrap:wrap}.pictures figure{flex-basis:45%}}
+@page{margin:14mm}
 @media print{
   :root{color-scheme:light}
   body{font-size:10.5pt;background:#fff}
   nav,.slider,.tip{display:none}
   header,main{max-width:none;padding:0}
   figure,.headlines>div,tr{break-inside:avoid;box-shadow:none!important}
-  h2{break-after:avoid}
+  h2,section>p{break-after:avoid}
+  svg text,svg .label,svg .marker-label{font-size:15px}
   .plots{grid-template-columns:1fr 1fr}
   *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
 }

@@ -140,9 +140,13 @@ void add_provenance(HtmlReport& page, const RunView& view) {
                     inputs.empty() ? "–" : inputs, io::sha256_of_file(s.path).substr(0, 16)});
   }
   page.table({"file", "kind", "made by", "from (SHA-256)", "its own SHA-256"}, rows);
-  // The scene, once for each set of blocks that differs.
+  // The scene, once for each set of blocks that differs; the run's own first.
+  std::vector<SourceFile> sources = view.files.sources;
+  std::stable_sort(sources.begin(), sources.end(), [](const SourceFile& a, const SourceFile& b) {
+    return (a.kind == "trajectory") > (b.kind == "trajectory");
+  });
   std::vector<std::string> shown;
-  for (const SourceFile& s : view.files.sources) {
+  for (const SourceFile& s : sources) {
     if (s.provenance.scene.empty() ||
         std::find(shown.begin(), shown.end(), s.provenance.scene) != shown.end())
       continue;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/file_header.h"
 #include "io/h5.h"
@@ -117,8 +118,11 @@ std::vector<Headline> headlines_of(const RunView& view) {
                              number_text(evaporated.all().back(), 3) + " evaporated"});
   }
   if (trajectory)
-    if (const auto pressure = trajectory->observable("surface_pressure"); !pressure.empty())
-      numbers.push_back({"Surface pressure", number_text(pressure.back() / 1000, 3), "kPa", "at the end"});
+    if (const auto pressure = trajectory->observable("surface_pressure"); !pressure.empty()) {
+      const bool small = std::abs(pressure.back()) < 1000;
+      numbers.push_back({"Surface pressure", number_text(pressure.back() / (small ? 1 : 1000), 3),
+                         small ? "Pa" : "kPa", "at the end"});
+    }
   if (const auto* cluster = view.files.result("cluster"))
     if (const Rows clustered = rows_of(*cluster, "/cluster/clustered_fraction"))
       numbers.push_back(

@@ -11,16 +11,28 @@
 namespace pigment::report {
 namespace {
 
-// Each particle's cluster at the time nearest to the frame's, where the run's cluster file fits it.
-std::vector<double> cluster_sizes(const RunView& view, double time, std::size_t particles) {
+// The frame at which the clusters are worth a look: about half of the particles have joined one.
+struct ClusterMoment {
+  std::size_t frame = 0;
+  std::vector<double> sizes;  // of each particle's cluster; empty where the run has no fitting cluster file
+};
+ClusterMoment moment_of_clustering(const RunView& view, const io::ParticleFile& particles) {
   const auto* file = view.files.result("cluster");
   if (!file) return {};
   const Rows times = rows_of(*file, "/cluster/time"), sizes = rows_of(*file, "/cluster/size");
-  if (!times || sizes.rows != times.rows || sizes.columns != particles) return {};
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < times.rows; ++i)
-    if (std::abs(times.at(i) - time) < std::abs(times.at(nearest) - time)) nearest = i;
-  return sizes.row(nearest);
+  if (!times || sizes.rows != times.rows || sizes.columns != particles.particle_count()) return {};
+  const Rows clustered = rows_of(*file, "/cluster/clustered_fraction", times.rows, 1);
+  std::size_t best = times.rows - 1;
+  // The packing itself, frame 0, has gaps of the packer's making.
+  for (std::size_t k = 1; k < clustered.rows; ++k)
+    if (std::abs(clustered.at(k) - 0.5) < std::abs(clustered.at(best) - 0.5)) best = k;
+  ClusterMoment moment;
+  const auto& frames = particles.times();
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    if (std::abs(frames[k] - times.at(best)) < std::abs(frames[moment.frame] - times.at(best)))
+      moment.frame = k;
+  moment.sizes = sizes.row(best);
+  return moment;
 }
 
 ColourLegend legend_of(const ParticleColours& colours) {
@@ -58,7 +70,7 @@ void add_pictures(HtmlReport& page, const RunView& view, const PictureWishes& wi
   const Surroundings around = surroundings_of(file->provenance());
   settings.surface = around.free_surface, settings.substrate = around.substrate;
   // A narrow tall cell is shown with its periodic neighbours, so that the picture reads as a layer.
-  settings.repeat = std::clamp(static_cast<int>(0.45 * highest / first.cell.width_x), 1, 4);
+  settings.repeat = std::clamp(static_cast<int>(std::ceil(0.45 * highest / first.cell.width_x - 0.2)), 1, 4);
   settings.width = std::clamp(
       static_cast<int>(settings.height * (settings.repeat * first.cell.width_x + 1.2) / (1.12 * highest)),
       240, 1200);
@@ -85,26 +97,31 @@ void add_pictures(HtmlReport& page, const RunView& view, const PictureWishes& wi
   page.images(pictures);
   page.colours(legend_of(colours_at(first)));
 
+  // A closer look: the layer at its end, and its clusters on a cut.
   const std::size_t last = file->frame_count() - 1;
-  if (const auto sizes = cluster_sizes(view, file->times().back(), file->particle_count()); !sizes.empty()) {
-    const Layer layer = file->layer(last);
-    std::vector<CaptionedImage> second;
-    PictureSettings oblique = settings;
-    oblique.view = View::Oblique;
-    oblique.framed_height.reset();
-    oblique.repeat = 1;
-    oblique.text_scale = 1.1;
-    oblique.width = 640, oblique.height = 760;
-    second.push_back({"the end, whole", "Oblique view of the layer at the end",
-                      draw_layer(layer, colours_at(layer), oblique)});
-    oblique.cuts = {{1, 0.5 * layer.cell.width_y}};
+  const ClusterMoment moment = moment_of_clustering(view, *file);
+  PictureSettings oblique = settings;
+  oblique.view = View::Oblique;
+  oblique.framed_height.reset();
+  oblique.repeat = 1;
+  oblique.text_scale = 1.1;
+  oblique.width = 640, oblique.height = 760;
+  const Layer end = file->layer(last);
+  std::vector<CaptionedImage> closer;
+  closer.push_back({view.when(file->times()[last]), "Oblique view of the layer at the end",
+                    draw_layer(end, colours_at(end), oblique)});
+  oblique.cuts = {{1, 0.5 * end.cell.width_y}};
+  closer.push_back({view.when(file->times()[last]) + ", cut in the middle",
+                    "Oblique view of the layer at the end, cut in the middle",
+                    draw_layer(end, colours_at(end), oblique)});
+  if (!moment.sizes.empty()) {
+    const Layer layer = file->layer(moment.frame);
     oblique.colour_bar = true;
-    second.push_back(
-        {"the end, cut in the middle, coloured by cluster",
-         "Oblique view of the layer at the end, cut, spheres coloured by the size of their cluster",
-         draw_layer(layer, colours_by_cluster(sizes), oblique)});
-    page.images(second);
+    closer.push_back({view.when(file->times()[moment.frame]) + ", coloured by cluster",
+                      "Oblique view of the layer, cut, spheres coloured by the size of their cluster",
+                      draw_layer(layer, colours_by_cluster(moment.sizes), oblique)});
   }
+  page.images(closer);
 }
 
 }  // namespace pigment::report

@@ -56,7 +56,8 @@ Scale scale_for(const Plot& plot, const Axis& axis, bool is_x, double begin, dou
   if (!(low <= high)) low = axis.logarithmic ? 1 : 0, high = axis.logarithmic ? 10 : 1;
   if (axis.from_zero && !axis.logarithmic) low = std::min(low, 0.0), high = std::max(high, 0.0);
   if (axis.from_zero && low == 0 && high == 0) high = 1;
-  if (low == high) {
+  // What differs by rounding only is one value.
+  if (high - low <= 1e-6 * std::max(std::abs(low), std::abs(high))) {
     const double pad = low == 0 ? 1 : 0.1 * std::abs(low);
     if (axis.logarithmic)
       low /= 2, high *= 2;

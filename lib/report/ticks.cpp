@@ -52,7 +52,9 @@ Ticks logarithmic_ticks(double low, double high) {
   const int first = static_cast<int>(std::floor(std::log10(low) - 1e-9)),
             last = static_cast<int>(std::ceil(std::log10(high) + 1e-9));
   const double decades = std::log10(high / low);
-  const std::vector<double> factors = decades < 2.2 ? std::vector<double>{1, 2, 5} : std::vector<double>{1};
+  const std::vector<double> factors = decades < 1.2   ? std::vector<double>{1, 2, 3, 5}
+                                      : decades < 2.2 ? std::vector<double>{1, 2, 5}
+                                                      : std::vector<double>{1};
   const int every = std::max(1, static_cast<int>(std::ceil(decades / 7)));
   for (int e = first; e <= last; ++e)
     for (const double f : factors) {

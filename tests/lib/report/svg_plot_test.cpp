@@ -41,7 +41,7 @@ TEST(Ticks, AnyRangeGivesAFewOfThem) {
 
 TEST(Ticks, LogarithmicOnesArePowersOfTen) {
   EXPECT_EQ(logarithmic_ticks(1e-4, 10).labels, (Labels{"0.0001", "0.001", "0.01", "0.1", "1", "10"}));
-  EXPECT_EQ(logarithmic_ticks(0.25, 2).labels, (Labels{"0.5", "1", "2"}));
+  EXPECT_EQ(logarithmic_ticks(0.25, 2).labels, (Labels{"0.3", "0.5", "1", "2"}));
 }
 
 TEST(Ticks, NumbersReadWell) {
@@ -100,6 +100,9 @@ TEST(SvgPlot, GapsStayGapsAndNothingIsNotANumber) {
     EXPECT_EQ(empty.find("nan"), std::string::npos);
     EXPECT_EQ(empty.find("inf"), std::string::npos);
   }
+  // Values that differ by rounding get an axis of ordinary numbers.
+  EXPECT_EQ(plot_figure(line({0, 1}, {0.05681818181818, 0.05681818181819}), "p").find("0.0568181818"),
+            std::string::npos);
   Plot log = line({0, 1}, {-1, 0});
   log.y.logarithmic = true;
   EXPECT_EQ(plot_figure(log, "p").find("nan"), std::string::npos);
