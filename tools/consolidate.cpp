@@ -51,17 +51,6 @@ std::vector<io::ObservableInfo> observables() {
   return infos;
 }
 
-void warn_of_overlaps(const stepping::Problem& problem, const Vec3Array& position) {
-  const auto& radius = problem.particles.radius;
-  const auto pairs = neighbours::find_pairs(problem.cell, position, radius, {0, 0, 0});
-  if (pairs.empty()) return;
-  double deepest = 0;
-  for (const auto& [i, j] : pairs)
-    deepest = std::max(deepest, radius[i] + radius[j] - problem.cell.minimum_image(position[j] - position[i]).norm());
-  warning(fmt::format("{}: {} pairs overlap, the deepest by {:.3g} nm; the forces of the scene part them", options.packing.string(),
-                      pairs.size(), deepest * 1e3));
-}
-
 void run(app::CommandLine& line) {
   config::Document document(options.scene, line.common.set);
   const scene::Scene scene = scene::read_scene(document, "consolidate");
@@ -93,7 +82,6 @@ void run(app::CommandLine& line) {
     note(fmt::format("going on from the checkpoint at t = {:.6g} s", state.time * 1e-3));
   } else {
     state = stepping::initial_state(problem, first.position);
-    warn_of_overlaps(problem, first.position);
   }
   Layer fixed = first;
   fixed.particles = problem.particles;

@@ -20,8 +20,10 @@ Profile profile() {
 }
 
 DewateringCurve through_a_file(io::ResultFile file) {
-  io::write_result("dewatering.h5", file);
-  return read_curve("dewatering.h5");
+  // Tests run side by side in one folder.
+  const std::string name = std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".h5";
+  io::write_result(name, file);
+  return read_curve(name);
 }
 
 // The file with one dataset changed.
