@@ -320,6 +320,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         check.worst_pair = p;
       }
       double& guess = geometry_[p].gap;
+      if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !implicit_) continue;
       if (off_guess(gap, guess, guess != gap_begin_[p])) {
@@ -370,6 +371,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   GapCheck all = checks[0];
   for (const GapCheck& check : checks) {
     all.refine = all.refine || check.refine;
+    all.crossed = all.crossed || check.crossed;
     if (check.smallest_gap < all.smallest_gap) {
       all.smallest_gap = check.smallest_gap;
       all.worst_pair = check.worst_pair;

@@ -32,6 +32,7 @@ struct BoundaryPressures {
 
 struct GapCheck {
   bool refine = false;         // solve again
+  bool crossed = false;        // some gap that was open came out closed
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
 };

@@ -27,6 +27,7 @@ FreeSurfaceParameters read_free_surface(config::Node node) {
   p.roughness = node.quantity("roughness", Dimension::Length, "2 nm", config::positive());
   p.elongation = node.choice<P::Elongation>("elongation", {{"arc", P::Elongation::Arc}, {"arc_minus_chord", P::Elongation::ArcMinusChord}}, "arc");
   p.approach = node.choice<P::Approach>("approach", {{"interface", P::Approach::Interface}, {"squeeze", P::Approach::Squeeze}}, "interface");
+  if (p.model == P::Model::PressureLimited) node.error("model", "\"pressure_limited\" is not available in this version; use spring or constraint");
   if (p.model == P::Model::PressureLimited)
     p.max_pressure = node.quantity("max", Dimension::Pressure, config::positive());
   else if (node.has("max"))
@@ -42,6 +43,7 @@ BrownianParameters read_brownian(config::Node node) {
   using P = BrownianParameters;
   P p;
   p.model = node.choice<P::Model>("model", {{"k_brown", P::Model::KBrown}, {"fluctuation_dissipation", P::Model::FluctuationDissipation}}, "k_brown");
+  if (p.model == P::Model::FluctuationDissipation) node.error("model", "\"fluctuation_dissipation\" is not available in this version; use k_brown");
   config::Node calibration = node.block("calibration");
   if (calibration.has("temperatures"))
     p.temperatures = calibration.quantities("temperatures", Dimension::Temperature, {}, config::between(253.15, 383.15));

@@ -181,7 +181,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
       if (!solve.converged) break;
       check = d.assembly->refine(d.system, solution);
       if (!check.refine) {
-        good = true;
+        // Without lubrication nothing keeps spheres apart but their forces, and a scene may have none.
+        good = !check.crossed || !problem.interactions.lubrication();
         break;
       }
     }
@@ -218,7 +219,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
       return report;
     }
     const double shorter = good ? std::max(0.3, 0.9 / std::sqrt(estimate)) * dt : 0.5 * dt;
-    if (shorter < shortest_step) d.give_up(state, dt, solve, check);
+    // An explicit step of a length that the scene insists on is a matter for its user.
+    if (shorter < shortest_step || (fixed && !implicit)) d.give_up(state, dt, solve, check);
     dt = shorter;
     if (!fixed && !noisy) state.preferred_step = dt;
     if (!noisy) guess = d.gathered(state.velocity, state.angular_velocity);
