@@ -7,12 +7,16 @@
 
 #include "solve/pair_kernel.h"
 
+// Where the BLAS under CHOLMOD is OpenBLAS: its sums depend on how many threads it takes, and results must not.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
 namespace pigment::solve {
 
 struct CholmodFactor::Data {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
   Data() {
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
     cholmod_start(&common);
     common.print = 0;
     common.nmethods = 1;  // approximate minimum degree alone: nested dissection takes longer than it saves at this size
