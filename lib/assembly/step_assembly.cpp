@@ -7,6 +7,7 @@
 #include "forces/surface_spring.h"
 #include "resistance/boundary_resistance.h"
 #include "resistance/pair_lubrication.h"
+#include "resistance/source_forms.h"
 
 namespace pigment::assembly {
 
@@ -114,15 +115,24 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       gap_begin_[p] = geometry_[p].gap = r - radius_[i] - radius_[j];
       if (interactions_.lubrication()) {
         const double smaller = std::min(radius_[i], radius_[j]);
-        scalars_[p] = resistance::tapered_pair_scalars(radius_[i], radius_[j], hydrodynamic_gap(gap_begin_[p], smaller),
-                                                       interactions_.hydrodynamics.taper);
+        const auto pair = thesis() ? resistance::source_pair_scalars : resistance::tapered_pair_scalars;
+        scalars_[p] = pair(radius_[i], radius_[j], hydrodynamic_gap(gap_begin_[p], smaller), interactions_.hydrodynamics.taper);
       }
     }
 }
 
+resistance::BoundaryScalars StepAssembly::wall_increment(double radius, double gap) const {
+  return thesis() ? resistance::source_wall_increment(radius, gap, interactions_.hydrodynamics.taper)
+                  : resistance::wall_increment(radius, gap);
+}
+
+resistance::BoundaryScalars StepAssembly::free_surface_increment(double radius, double gap) const {
+  return thesis() ? resistance::source_free_surface_increment(radius, gap) : resistance::free_surface_increment(radius, gap);
+}
+
 double StepAssembly::wall_resistance(int k) const {
   const double a = radius_[k], gap = hydrodynamic_gap(position_[k].z() - a, a);
-  double value = resistance::wall_increment(a, gap).perpendicular;
+  double value = wall_increment(a, gap).perpendicular;
   const double guess = substrate_geometry_[k].gap;
   if (guess != position_[k].z() - a && guess > 0 && gap > 0) value += resistance::wall_step_average_increment(a, gap, guess);
   return value;
@@ -150,7 +160,7 @@ StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
   // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
   if (interactions_.lubrication())
-    s.resistance = resistance::free_surface_increment(a, std::max(gap, surface.roughness)).perpendicular;
+    s.resistance = free_surface_increment(a, std::max(gap, surface.roughness)).perpendicular;
   if (protrusion_guess_[k] > held) {
     const forces::SpringForce spring = forces::surface_spring(surface, a, protrusion_guess_[k]);
     s.force = spring.force;
@@ -174,7 +184,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
     if (interactions_.substrate) {
       if (interactions_.lubrication()) {
-        const resistance::BoundaryScalars w = resistance::wall_increment(a, hydrodynamic_gap(position_[k].z() - a, a));
+        const resistance::BoundaryScalars w = wall_increment(a, hydrodynamic_gap(position_[k].z() - a, a));
         const double perpendicular = mu * wall_resistance(k);
         t.along += perpendicular;
         t.across += mu * w.parallel;
@@ -193,7 +203,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       const SurfaceState s = surface_state(k);
       if (interactions_.lubrication()) {
         const resistance::BoundaryScalars w =
-            resistance::free_surface_increment(a, std::max(s.gap_begin, interactions_.free_surface->roughness));
+            free_surface_increment(a, std::max(s.gap_begin, interactions_.free_surface->roughness));
         t.across += mu * w.parallel;
         t.coupling += mu * w.coupling;
         t.spin_along += mu * w.twist;

@@ -4,10 +4,8 @@ namespace pigment::resistance {
 
 HydrodynamicsParameters read_hydrodynamics(config::Node node) {
   HydrodynamicsParameters p;
-  enum class Model { Exact, Thesis, Drag };
-  const Model model = node.choice<Model>("model", {{"exact", Model::Exact}, {"thesis", Model::Thesis}, {"drag", Model::Drag}}, "exact");
-  if (model == Model::Thesis) node.error("model", "\"thesis\" is not available in this version; use exact or drag");
-  p.model = model == Model::Drag ? HydrodynamicsParameters::Model::Drag : HydrodynamicsParameters::Model::Exact;
+  using Model = HydrodynamicsParameters::Model;
+  p.model = node.choice<Model>("model", {{"exact", Model::Exact}, {"thesis", Model::Thesis}, {"drag", Model::Drag}}, "exact");
   enum class Drag { Stokes, Hindered };
   if (node.choice<Drag>("drag", {{"stokes", Drag::Stokes}, {"hindered", Drag::Hindered}}, "stokes") == Drag::Hindered)
     node.error("drag", "\"hindered\" is not available in this version; use stokes");

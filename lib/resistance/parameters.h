@@ -6,7 +6,7 @@
 namespace pigment::resistance {
 
 struct HydrodynamicsParameters {
-  enum class Model { Exact, Drag };
+  enum class Model { Exact, Thesis, Drag };  // thesis: source_forms.h
   Model model = Model::Exact;
   bool rotation = true;
   LubricationTaper taper;  // of the pair term
