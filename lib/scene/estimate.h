@@ -32,6 +32,7 @@ RateEstimate estimate_rates(const dewatering::Profile&);
 
 struct CostEstimate {
   double particles = 0, pairs = 0, steps = 0, frames = 0;
+  double step = 0;       // ms, given or usual
   double seconds = 0;    // on one core
   double megabytes = 0;  // of the trajectory before compression
 };

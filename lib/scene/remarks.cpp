@@ -231,11 +231,9 @@ class Writer {
     if (!layer_ || duration == 0) return;
     const CostEstimate c = estimate_cost(scene_, *layer_, duration);
     line("Cost of pigment-consolidate to {:.4g} s, roughly", 1e-3 * duration);
-    line("  {:.0f} particles, {:.0f} near pairs, {:.0f} steps of {}: {:.0f} s on one core; {:.0f} frames, {:.0f} MB before "
-         "compression",
-         c.particles, c.pairs, c.steps,
-         scene_.stepping.time_step ? "the given size" : "0.1 ms, what the error control takes on the average", c.seconds,
-         c.frames, c.megabytes);
+    line("  {:.0f} particles, {:.0f} near pairs, {:.0f} steps of {:.3g} ms ({}): {:.0f} s on one core", c.particles, c.pairs,
+         c.steps, c.step, scene_.stepping.time_step ? "as given" : "what the error control takes on the average", c.seconds);
+    line("  {:.0f} frames, {:.0f} MB before compression", c.frames, c.megabytes);
   }
 
   void verdict(const char* model, bool present, bool needed, const std::string& why) {
