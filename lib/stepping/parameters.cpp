@@ -14,7 +14,10 @@ SteppingParameters read_stepping(config::Node node) {
   else
     node.accept_word("time_step", "auto");
   p.tolerance = node.number("tolerance", 1e-3, config::strictly_between(0, 1));
-  p.until = node.optional_quantity("until", Dimension::Time, config::positive());
+  if (node.has("until") && !node.is_word("until", "auto"))
+    p.until = node.quantity("until", Dimension::Time, config::positive());
+  else
+    node.accept_word("until", "auto");  // the end of the dewatering curve
   p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"until", P::StopWhen::Until}}, "immobile");
   if (node.has("solver_tolerance") && !node.is_word("solver_tolerance", "auto"))
     p.solver_tolerance = node.number("solver_tolerance", config::strictly_between(0, 0.1));
