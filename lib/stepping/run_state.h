@@ -24,6 +24,7 @@ struct RunState {
   Vec3Array previous_angular_velocity;
   std::vector<double> protrusion;   // guess for the free surface, um
   Vec3Array list_reference;         // positions at which the neighbour list was made
+  double list_temperature = 0;      // K, of the liquid then: ranges follow it
   Vec3Array frame_position;         // positions at the last output frame: immobility is judged over a frame
   double frame_height = 0;          // H then
   std::vector<std::int64_t> solver_factor;    // matrix of the factor that the solver keeps (solve/adaptive_solver.h)

@@ -127,7 +127,7 @@ struct Stepper::Data {
 };
 
 Stepper::Stepper(const Problem& problem, const RunState& state) : data_(std::make_unique<Data>(problem)) {
-  data_->make_list(state.list_reference, data_->liquid_at_time(state.time));
+  data_->make_list(state.list_reference, liquid_at(problem.interactions.liquid, state.list_temperature));
   data_->solver.restore_factor(state.solver_factor, data_->assembly->topology());
 }
 Stepper::~Stepper() = default;
@@ -150,6 +150,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
   const double scale = gap_scale(problem.interactions, liquid);
   if (d.list.is_spent(state.position)) {
     state.list_reference = state.position;
+    state.list_temperature = liquid.temperature;
     d.make_list(state.list_reference, liquid);
     d.solver.forget_factor();
   }
@@ -235,6 +236,7 @@ RunState initial_state(const Problem& problem, const Vec3Array& position) {
   s.protrusion.assign(n, 0.0);
   s.frame_height = problem.cell.height;
   s.preferred_step = Stepper::first_step(problem);
+  s.list_temperature = problem.dewatering.temperature_at(0, problem.interactions.liquid.temperature);
   return s;
 }
 
