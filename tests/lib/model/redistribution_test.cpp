@@ -1,0 +1,81 @@
+#include "model/redistribution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace pigment;
+
+namespace {
+
+// Some spheres in each tenth of a layer of this height, lowest first.
+struct Spheres {
+  Vec3Array position;
+  std::vector<double> radius;
+};
+Spheres spheres(double height) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform;
+  Spheres s;
+  for (int b = 0; b < redistribution_slices; ++b)
+    for (int k = 0; k < 7; ++k) {
+      s.position.emplace_back(uniform(random), uniform(random), height * (b + uniform(random)) / redistribution_slices);
+      s.radius.push_back(0.1 + uniform(random));
+    }
+  return s;
+}
+
+}  // namespace
+
+TEST(Redistribution, IsNothingInALayerThatShrinksEvenly) {
+  const Spheres s = spheres(20);
+  Vec3Array after = s.position;
+  for (Vec3& p : after) p.z() *= 19.0 / 20;
+  for (Vec3& p : after) p.x() += 3;  // sideways does not count
+  EXPECT_LT(redistribution_ratio({redistribution_between(s.position, after, s.radius, 20, 19)}), 1e-14);  // rounding
+}
+
+// Every particle falls with the surface: in slice b of ten, at height (b + 1/2) H/10, even shrinking takes (b + 1/2)/10 of that,
+// and the root mean square of 1 - (b + 1/2)/10 is sqrt(0.3325).
+TEST(Redistribution, OfALayerThatFallsBodilyIsByHand) {
+  Vec3Array before;
+  std::vector<double> radius;
+  for (int b = 0; b < 10; ++b) {
+    before.emplace_back(0, 0, (b + 0.5) * 2);
+    radius.push_back(0.2 + 0.1 * b);
+  }
+  Vec3Array after = before;
+  for (Vec3& p : after) p.z() -= 0.5;
+  const Redistribution one = redistribution_between(before, after, radius, 20, 19.5);
+  EXPECT_DOUBLE_EQ(one.fall, 0.5);
+  for (int b = 0; b < 10; ++b) EXPECT_NEAR(one.residual[b], -0.5 * (1 - (b + 0.5) / 10), 1e-15);
+  EXPECT_NEAR(redistribution_ratio({one}), std::sqrt(0.3325), 1e-14);
+  EXPECT_NEAR(redistribution_ratio({one, one, one}), std::sqrt(0.3325), 1e-14);  // the window does not change it
+}
+
+TEST(Redistribution, WeighsBySolidVolumeWithinASlice) {
+  // Radii 1 and 2 in the lowest slice: volumes 1 and 8; only the small one moves, the surface rests but for 1e-3 um.
+  const Vec3Array before{{0, 0, 0.5}, {1, 0, 0.5}}, after{{0, 0, 1.4}, {1, 0, 0.5}};
+  const Redistribution r = redistribution_between(before, after, {1, 2}, 20, 19.999);
+  EXPECT_NEAR(r.residual[0], 0.9 / 9 + 0.5 * 1e-3 / 20, 1e-15);
+  for (int b = 1; b < 10; ++b) EXPECT_EQ(r.residual[b], 0);  // empty slices
+}
+
+TEST(Redistribution, CancelsWhereParticlesGiveWayAndComeBack) {
+  const Spheres s = spheres(20);
+  Vec3Array there = s.position;
+  for (std::size_t k = 0; k < there.size(); ++k) there[k].z() += 1e-3 * (k % 3);
+  const Redistribution away = redistribution_between(s.position, there, s.radius, 20, 20 - 1e-9),
+                       back = redistribution_between(there, s.position, s.radius, 20 - 1e-9, 20 - 2e-9);
+  const double alone = redistribution_ratio({away}), both = redistribution_ratio({away, back});
+  EXPECT_GT(alone, 1e4);
+  // Spheres near a border may be counted in the next slice on the way back: none is that near here.
+  EXPECT_LT(both, 1e-3 * alone);
+}
+
+TEST(Redistribution, IsOneWhereTheSurfaceDidNotFall) {
+  const Spheres s = spheres(20);
+  EXPECT_EQ(redistribution_ratio({redistribution_between(s.position, s.position, s.radius, 20, 20)}), 1);
+  EXPECT_EQ(redistribution_ratio({}), 1);
+}
