@@ -142,9 +142,11 @@ class Renderer {
     const double scale = settings_.width / camera_.width;
     const Vec3 d = centre - camera_.target;
     const double x = d.dot(camera_.right), y = d.dot(camera_.up);
+    // Far outside the picture is far enough: pixel numbers stay whole numbers that fit.
+    const auto pixel = [&](double size, double v) { return std::clamp(0.5 * size + scale * v, -1e6, 1e6); };
     const auto to_pixels = [&](double x0, double x1, double y0, double y1) {
-      return PixelBounds{0.5 * settings_.width + scale * x0, 0.5 * settings_.width + scale * x1,
-                         0.5 * settings_.height - scale * y1, 0.5 * settings_.height - scale * y0};
+      return PixelBounds{pixel(settings_.width, x0), pixel(settings_.width, x1), pixel(settings_.height, -y1),
+                         pixel(settings_.height, -y0)};
     };
     if (camera_.eye_distance <= 0) return to_pixels(x - radius, x + radius, y - radius, y + radius);
     const double depth = d.dot(camera_.forward) + camera_.eye_distance;

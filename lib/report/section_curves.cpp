@@ -18,6 +18,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 // Long curves carry no more points than a plot can show.
 void add_thinned(Plot& plot, Series series) {
   constexpr std::size_t most = 1500;
+  const std::size_t points = std::min(series.x.size(), series.y.size());
+  if (series.style != SeriesStyle::Steps) series.x.resize(points), series.y.resize(points);
   if (series.x.size() > most && series.style != SeriesStyle::Steps) {
     const std::size_t every = (series.x.size() + most - 1) / most;
     Series thin = series;
@@ -72,7 +74,7 @@ double largest(const Plot& plot) {
 void add_dewatering(HtmlReport& page, const RunView& view) {
   const auto* file = view.files.result("dewatering");
   if (!file) return;
-  const Rows time = rows_of(*file, "/dewatering/time");
+  const Rows time = rows_of(*file, "/dewatering/time", {}, 1);
   if (time.rows < 2) return;
   RunView own = view;  // the plan may be longer than the run
   own.longest_time = time.at(time.rows - 1);
@@ -131,7 +133,7 @@ void add_development(HtmlReport& page, const RunView& view) {
   std::vector<Plot> plots;
   const auto markers = view.immobilisation_marker();
   const auto* solids = view.files.result("solids");
-  const Rows time = solids ? rows_of(*solids, "/solids/time") : Rows{};
+  const Rows time = solids ? rows_of(*solids, "/solids/time", {}, 1) : Rows{};
   const auto from_solids = [&](Plot& plot, const char* name, const char* label, double factor) {
     if (time.rows < 2) return;
     if (const Rows v = rows_of(*solids, std::string("/solids/") + name, time.rows, 1))
@@ -181,7 +183,7 @@ void add_development(HtmlReport& page, const RunView& view) {
   if (largest(dense) > 0) keep(plots, dense);
 
   if (solids) {
-    const Rows when = rows_of(*solids, "/solids/immobilisation/time");
+    const Rows when = rows_of(*solids, "/solids/immobilisation/time", {}, 1);
     Plot motion = in_time(view, "Motion within the layer", "velocity", "µm/s");
     const auto add = [&](const char* name, const char* label, SeriesStyle style) {
       const Rows v = rows_of(*solids, std::string("/solids/immobilisation/") + name, when.rows, 1);

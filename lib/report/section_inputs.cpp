@@ -63,8 +63,8 @@ void add_packing(HtmlReport& page, const RunView& view) {
       text +=
           fmt::format("Sizes against the law they were drawn from, by weight: Kolmogorov-Smirnov p = {}. ",
                       number_text(*p, 2));
-    const Rows edges = rows_of(report, "/packing/profile/z_edges");
-    if (const Rows profile = rows_of(report, "/packing/profile/volume_fraction");
+    const Rows edges = rows_of(report, "/packing/profile/z_edges", {}, 1);
+    if (const Rows profile = rows_of(report, "/packing/profile/volume_fraction", {}, 1);
         profile && edges.rows == profile.rows + 1) {
       Plot plot;
       plot.title = "Solids of the packing over the height";
@@ -84,7 +84,7 @@ void add_packing(HtmlReport& page, const RunView& view) {
 void add_brownian_calibration(HtmlReport& page, const RunView& view) {
   const auto* file = view.files.result("kbrown");
   if (!file) return;
-  const Rows temperature = rows_of(*file, "/kbrown/temperature");
+  const Rows temperature = rows_of(*file, "/kbrown/temperature", {}, 1);
   if (!temperature) return;
   const Rows value = rows_of(*file, "/kbrown/value", temperature.rows, 1),
              deviation = rows_of(*file, "/kbrown/standard_deviation", temperature.rows, 1);

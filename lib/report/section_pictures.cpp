@@ -19,7 +19,7 @@ struct ClusterMoment {
 ClusterMoment moment_of_clustering(const RunView& view, const io::ParticleFile& particles) {
   const auto* file = view.files.result("cluster");
   if (!file) return {};
-  const Rows times = rows_of(*file, "/cluster/time"), sizes = rows_of(*file, "/cluster/size");
+  const Rows times = rows_of(*file, "/cluster/time", {}, 1), sizes = rows_of(*file, "/cluster/size");
   if (!times || sizes.rows != times.rows || sizes.columns != particles.particle_count()) return {};
   const Rows clustered = rows_of(*file, "/cluster/clustered_fraction", times.rows, 1);
   std::size_t best = times.rows - 1;

@@ -94,7 +94,7 @@ Cube cube_of(const io::ResultFile& file, const std::string& path, std::size_t in
 void add_profiles(HtmlReport& page, const RunView& view) {
   const auto* file = view.files.result("solids");
   if (!file) return;
-  const Rows time = rows_of(*file, "/solids/time");
+  const Rows time = rows_of(*file, "/solids/time", {}, 1);
   if (!time) return;
   const Rows edges = rows_of(*file, "/solids/z_edges", time.rows);
   if (edges.columns < 2) return;
@@ -119,7 +119,7 @@ void add_profiles(HtmlReport& page, const RunView& view) {
   profile("volume_fraction", "Solids over the height, by volume", "vol%");
 
   // Size classes over the relative height, so that layers of any thickness compare.
-  const auto borders = rows_of(*file, "/solids/size_class_borders").all();
+  const auto borders = rows_of(*file, "/solids/size_class_borders", {}, 1).all();
   const auto classes = [&](const char* name, const char* title, const char* label, double factor,
                            const char* unit) {
     Plot plot;
@@ -161,7 +161,7 @@ void add_profiles(HtmlReport& page, const RunView& view) {
 void add_clusters(HtmlReport& page, const RunView& view) {
   const auto* file = view.files.result("cluster");
   if (!file) return;
-  const Rows time = rows_of(*file, "/cluster/time");
+  const Rows time = rows_of(*file, "/cluster/time", {}, 1);
   if (!time) return;
   std::vector<Plot> plots;
   const auto times = view.shown_times(time.all());
@@ -210,7 +210,8 @@ void add_clusters(HtmlReport& page, const RunView& view) {
 void add_separations(HtmlReport& page, const RunView& view) {
   const auto* file = view.files.result("separation");
   if (!file) return;
-  const Rows edges = rows_of(*file, "/separation/edges"), time = rows_of(*file, "/separation/time");
+  const Rows edges = rows_of(*file, "/separation/edges", {}, 1),
+             time = rows_of(*file, "/separation/time", {}, 1);
   if (edges.rows < 2 || !time) return;
   std::vector<Plot> plots;
   if (const Rows density = rows_of(*file, "/separation/density", time.rows, edges.rows - 1)) {
@@ -223,7 +224,7 @@ void add_separations(HtmlReport& page, const RunView& view) {
     });
     plots.push_back(std::move(plot));
   }
-  const Rows near = rows_of(*file, "/separation/near_edges");
+  const Rows near = rows_of(*file, "/separation/near_edges", {}, 1);
   if (near)
     if (const Rows cumulative = rows_of(*file, "/separation/near_cumulative", time.rows, near.rows)) {
       Plot plot;
@@ -258,7 +259,7 @@ void add_separations(HtmlReport& page, const RunView& view) {
 void add_mobility(HtmlReport& page, const RunView& view) {
   const auto* file = view.files.result("mobility");
   if (!file) return;
-  const Rows edges = rows_of(*file, "/mobility/edges"), time = rows_of(*file, "/mobility/time");
+  const Rows edges = rows_of(*file, "/mobility/edges", {}, 1), time = rows_of(*file, "/mobility/time", {}, 1);
   if (edges.rows < 2 || !time) return;
   const Rows start = rows_of(*file, "/mobility/start_time", time.rows, 1);
   const auto band_name = [](std::size_t b, std::size_t bands) {
