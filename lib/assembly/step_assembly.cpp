@@ -5,20 +5,14 @@
 #include <limits>
 
 #include "forces/surface_spring.h"
-#include "resistance/boundary_resistance.h"
-#include "resistance/pair_lubrication.h"
-#include "resistance/source_forms.h"
+#include "resistance/scene_resistance.h"
 
 namespace pigment::assembly {
 
 namespace {
 
-// Lubrication theory ends where the surfaces do; an overlapping pair keeps the resistance of this share of the smaller radius.
-constexpr double smallest_hydrodynamic_gap = 1e-6;
 // A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above.
 constexpr double largest_fall = 0.2;
-
-double hydrodynamic_gap(double gap, double radius) { return std::max(gap, smallest_hydrodynamic_gap * radius); }
 
 // Whether a gap came out far from what the system was linearised about.
 bool off_guess(double gap, double guess, bool refined) {
@@ -113,26 +107,13 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       const double r = d.norm();
       normal_[p] = d / r;
       gap_begin_[p] = geometry_[p].gap = r - radius_[i] - radius_[j];
-      if (interactions_.lubrication()) {
-        const double smaller = std::min(radius_[i], radius_[j]);
-        const auto pair = thesis() ? resistance::source_pair_scalars : resistance::tapered_pair_scalars;
-        scalars_[p] = pair(radius_[i], radius_[j], hydrodynamic_gap(gap_begin_[p], smaller), interactions_.hydrodynamics.taper);
-      }
+      if (interactions_.lubrication()) scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]);
     }
 }
 
-resistance::BoundaryScalars StepAssembly::wall_increment(double radius, double gap) const {
-  return thesis() ? resistance::source_wall_increment(radius, gap, interactions_.hydrodynamics.taper)
-                  : resistance::wall_increment(radius, gap);
-}
-
-resistance::BoundaryScalars StepAssembly::free_surface_increment(double radius, double gap) const {
-  return thesis() ? resistance::source_free_surface_increment(radius, gap) : resistance::free_surface_increment(radius, gap);
-}
-
 double StepAssembly::wall_resistance(int k) const {
-  const double a = radius_[k], gap = hydrodynamic_gap(position_[k].z() - a, a);
-  double value = wall_increment(a, gap).perpendicular;
+  const double a = radius_[k], gap = resistance::hydrodynamic_gap(position_[k].z() - a, a);
+  double value = resistance::wall_term(interactions_.hydrodynamics, a, gap).perpendicular;
   const double guess = substrate_geometry_[k].gap;
   if (guess != position_[k].z() - a && guess > 0 && gap > 0) value += resistance::wall_step_average_increment(a, gap, guess);
   return value;
@@ -160,7 +141,7 @@ StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
   // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
   if (interactions_.lubrication())
-    s.resistance = free_surface_increment(a, std::max(gap, surface.roughness)).perpendicular;
+    s.resistance = resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(gap, surface.roughness)).perpendicular;
   if (protrusion_guess_[k] > held) {
     const forces::SpringForce spring = forces::surface_spring(surface, a, protrusion_guess_[k]);
     s.force = spring.force;
@@ -184,7 +165,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
     if (interactions_.substrate) {
       if (interactions_.lubrication()) {
-        const resistance::BoundaryScalars w = wall_increment(a, hydrodynamic_gap(position_[k].z() - a, a));
+        const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, position_[k].z() - a);
         const double perpendicular = mu * wall_resistance(k);
         t.along += perpendicular;
         t.across += mu * w.parallel;
@@ -203,7 +184,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       const SurfaceState s = surface_state(k);
       if (interactions_.lubrication()) {
         const resistance::BoundaryScalars w =
-            free_surface_increment(a, std::max(s.gap_begin, interactions_.free_surface->roughness));
+            resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(s.gap_begin, interactions_.free_surface->roughness));
         t.across += mu * w.parallel;
         t.coupling += mu * w.coupling;
         t.spin_along += mu * w.twist;

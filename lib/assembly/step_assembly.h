@@ -12,7 +12,6 @@
 #include "assembly/interactions.h"
 #include "model/particles.h"
 #include "neighbours/neighbour_list.h"
-#include "resistance/boundary_resistance.h"
 #include "solve/pair_system.h"
 
 namespace pigment::assembly {
@@ -74,9 +73,6 @@ class StepAssembly {
   void pair_terms(int chunk, solve::PairSystem&, double* rhs) const;
   SurfaceState surface_state(int k) const;
   SubstrateState substrate_state(int k) const;
-  resistance::BoundaryScalars wall_increment(double radius, double gap) const;          // of the scene's model
-  resistance::BoundaryScalars free_surface_increment(double radius, double gap) const;  // likewise
-  bool thesis() const { return interactions_.hydrodynamics.model == resistance::HydrodynamicsParameters::Model::Thesis; }
   double wall_resistance(int k) const;
 
   const Interactions& interactions_;

@@ -35,6 +35,9 @@ constexpr DimensionInfo table[] = {
     {Dimension::Concentration, "concentration", "mol m-3", 1, "10 mol/m3"},
     {Dimension::InverseLength, "inverse length", "m-1", 1e-6, "1 um-1"},
     {Dimension::BrownianConstant, "Brownian constant", "N m-1/2", 1e9, "1e-9 N m-1/2"},
+    {Dimension::Resistance, "resistance", "N s m-1", 1e9, "1e-8 N s/m"},
+    {Dimension::ResistanceCoupling, "coupling resistance", "N s", 1e15, "1e-14 N s"},
+    {Dimension::RotationalResistance, "rotational resistance", "N m s", 1e21, "1e-20 N m s"},
     {Dimension::MassFraction, "mass fraction", "1", 1, "65 wt%"},
     {Dimension::VolumeFraction, "volume fraction", "1", 1, "68 vol%"},
 };

@@ -31,6 +31,9 @@ enum class Dimension {
   Concentration,     // mol m-3
   InverseLength,     // m-1: a density of lengths
   BrownianConstant,  // N m-1/2, K_Brown of (25)
+  Resistance,        // N s m-1: force by velocity
+  ResistanceCoupling,   // N s: force by angular velocity, torque by velocity
+  RotationalResistance, // N m s: torque by angular velocity
   MassFraction,      // 1, written "65 wt%"
   VolumeFraction,    // 1, written "68 vol%"
 };

@@ -76,14 +76,22 @@ Header read_header(const std::string& where, const std::string& line,
   return header;
 }
 
-double read_field(const std::string& where, const std::string& column, const std::string& field) {
+// SI value of a field.
+double read_field(const std::string& where, const CsvColumn& column, const UnitConversion& conversion,
+                  const std::string& field) {
+  for (const auto& [word, value] : column.words)
+    if (field == word) return value;
   // from_chars knows no leading plus; locales do not touch it.
   const char* begin = field.data() + (field.size() > 1 && field[0] == '+' && field[1] != '-');
   double value = 0;
   const auto [end, status] = std::from_chars(begin, field.data() + field.size(), value);
-  if (status != std::errc{} || end != field.data() + field.size() || !std::isfinite(value))
-    throw FileError(where + "column \"" + column + "\": \"" + field + "\" is not a finite number");
-  return value;
+  if (status != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
+    std::string words;
+    for (const auto& w : column.words) words += " or \"" + w.first + "\"";
+    throw FileError(where + "column \"" + column.name + "\": \"" + field + "\" is not a finite number" +
+                    (words.empty() ? "" : "; expected one" + words));
+  }
+  return conversion.factor * value + conversion.offset;
 }
 
 }  // namespace
@@ -120,8 +128,7 @@ CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvColumn
       throw FileError(where + "expected " + std::to_string(header.columns.size()) +
                       " fields as in the header, found " + std::to_string(fields.size()));
     for (std::size_t c = 0; c < fields.size(); ++c) {
-      const double value = read_field(where, header.columns[c].name, fields[c]);
-      const double si = header.conversion[c].factor * value + header.conversion[c].offset;
+      const double si = read_field(where, header.columns[c], header.conversion[c], fields[c]);
       table.values[c].push_back(to_engine(header.columns[c].dimension, si));
     }
     table.line.push_back(number);

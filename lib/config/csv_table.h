@@ -2,6 +2,7 @@
 // A table of numbers in a CSV file whose header names each column's unit: "diameter [um],finer [wt%]".
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
@@ -12,6 +13,7 @@ struct CsvColumn {
   std::string name;  // without the unit
   Dimension dimension;
   bool required = true;
+  std::vector<std::pair<std::string, double>> words = {};  // what may stand in place of a number, and its value
 };
 
 struct CsvTable {
@@ -30,7 +32,7 @@ struct CsvTable {
 // Reads a file with one header line; empty lines and lines that begin with # are skipped, fields may stand in
 // spaces. Any order of columns will do. Throws FileError, with the line, for a file that cannot be read, an
 // unknown, missing or repeated column, a unit that is missing or of another dimension, a row of the wrong
-// length, a field that is not a finite number, and a file without rows.
+// length, a field that is neither a finite number nor one of the column's words, and a file without rows.
 CsvTable read_csv(const std::filesystem::path&, const std::vector<CsvColumn>& expected);
 
 }  // namespace pigment::config

@@ -67,8 +67,10 @@ double taper(double y, double begin, double end) {
   return 1 - t * t * t * (10 - 15 * t + 6 * t * t);
 }
 
+double hydrodynamic_gap(double gap, double smaller_radius) { return std::max(gap, 1e-6 * smaller_radius); }
+
 PairScalars pair_scalars(double radius_i, double radius_j, double gap) {
-  return tapered_pair_scalars(radius_i, radius_j, gap, {1e300, 2e300, 1e300, 2e300});
+  return tapered_pair_scalars(radius_i, radius_j, gap, no_taper);
 }
 
 PairScalars tapered_pair_scalars(double radius_i, double radius_j, double gap, const LubricationTaper& range) {

@@ -34,7 +34,12 @@ struct LubricationTaper {
   double squeeze_begin = 0.5, squeeze_end = 1.5;
   double shear_begin = 0.2, shear_end = 0.4;
 };
+inline constexpr LubricationTaper no_taper{1e300, 2e300, 1e300, 2e300};
 double taper(double gap_over_smaller_radius, double begin, double end);
+
+// Lubrication theory ends where the surfaces do: overlapping surfaces keep the resistance of a millionth of the smaller
+// radius.
+double hydrodynamic_gap(double gap, double smaller_radius);
 
 // Untapered scalars, gap > 0; either radius may be infinite (a plane; R is then the finite radius).
 PairScalars pair_scalars(double radius_i, double radius_j, double gap);

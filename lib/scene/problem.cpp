@@ -33,6 +33,19 @@ std::vector<int> species_map(const Scene& scene, const io::ParticleFile& packing
 
 }  // namespace
 
+assembly::Interactions interactions_of(const Scene& scene) {
+  assembly::Interactions in;
+  in.hydrodynamics = scene.hydrodynamics;
+  in.colloidal = scene.colloidal;
+  in.substrate = scene.substrate;
+  in.free_surface = scene.free_surface;
+  in.gravity = scene.gravity;
+  in.brownian = scene.brownian;
+  in.liquid = scene.liquid;
+  for (const Species& s : scene.species) in.surface_potential.push_back(s.surface_potential);
+  return in;
+}
+
 stepping::Problem problem_of(const Scene& scene, const io::ParticleFile& packing) {
   stepping::Problem problem;
   problem.particles = packing.particles();
@@ -50,15 +63,7 @@ stepping::Problem problem_of(const Scene& scene, const io::ParticleFile& packing
   if (std::min(problem.cell.width_x, problem.cell.width_y) < 4 * largest)
     throw FileError(fmt::format("{}: /particles/layer/box/edges: {:.6g} x {:.6g} um is under two largest diameters ({:.6g} um each): a particle "
                                 "would meet its own periodic image", packing.path().string(), problem.cell.width_x, problem.cell.width_y, 2 * largest));
-  assembly::Interactions& in = problem.interactions;
-  in.hydrodynamics = scene.hydrodynamics;
-  in.colloidal = scene.colloidal;
-  in.substrate = scene.substrate;
-  in.free_surface = scene.free_surface;
-  in.gravity = scene.gravity;
-  in.brownian = scene.brownian;
-  in.liquid = scene.liquid;
-  for (const Species& s : scene.species) in.surface_potential.push_back(s.surface_potential);
+  problem.interactions = interactions_of(scene);
   problem.stepping = scene.stepping;
   problem.seed = scene.seed;
   return problem;

@@ -6,6 +6,9 @@
 
 namespace pigment::scene {
 
+// What acts in the scene; surface potentials by species.
+assembly::Interactions interactions_of(const Scene&);
+
 // The packing's box, positions and radii win over `layer`. Species are matched by name where the packing stores names, else by
 // index; masses missing in the file follow from the species's density (said as a note). Throws FileError for a species that the
 // scene does not have.

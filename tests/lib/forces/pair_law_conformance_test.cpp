@@ -1,7 +1,11 @@
 // What every registered law must satisfy, whatever its physics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "base/error.h"
@@ -95,3 +99,17 @@ TEST_P(EveryLaw, UnknownKeyIsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::Range<std::size_t>(0, pair_laws().size()),
                          [](const auto& info) { return pair_laws()[info.param].name; });
+
+// A line without a file does not link; a file without its line is found here.
+TEST(PairLaws, EveryFileWithALawHasItsLine) {
+  int files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(std::string(PIGMENT_SOURCE_DIR) + "/lib/forces")) {
+    if (file.path().extension() != ".cpp") continue;
+    std::ifstream in(file.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}}, stem = file.path().stem().string();
+    if (text.find("PairLawEntry " + stem + "_law()") == std::string::npos) continue;
+    ++files;
+    EXPECT_TRUE(std::any_of(pair_laws().begin(), pair_laws().end(), [&](const PairLawEntry& entry) { return entry.name == stem; })) << stem;
+  }
+  EXPECT_EQ(files, static_cast<int>(pair_laws().size()));
+}
