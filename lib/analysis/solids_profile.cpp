@@ -34,7 +34,7 @@ double dense_thickness(const std::vector<double>& edges, const std::vector<doubl
   while (s < slices && volume_fraction[s] < threshold) ++s;
   if (s == slices || edges[s] - edges[0] > wall_layer) return 0;
   while (s + 1 < slices && volume_fraction[s + 1] >= threshold) ++s;
-  if (s + 1 == slices) return edges.back() - edges.front();
+  if (s + 1 == slices || edges.back() - edges[s + 1] <= wall_layer) return edges.back() - edges.front();
   const double middle = 0.5 * (edges[s] + edges[s + 1]), next = 0.5 * (edges[s + 1] + edges[s + 2]);
   const double fall = (volume_fraction[s] - threshold) / (volume_fraction[s] - volume_fraction[s + 1]);
   return middle + fall * (next - middle) - edges[0];

@@ -65,9 +65,9 @@ struct Solids {
 SolidsProfile profile_solids(const Snapshot&, const Solids&, const Parameters&);
 SolidsDevelopment follow_solids(const Frames&, const Solids&, const Parameters&);
 
-// Height above the first edge up to which slices hold at least `threshold`: a run of such slices that begins
-// within `wall_layer` of the first edge and ends where the profile, linear between the middles of slices,
-// falls through the threshold. 0 where no such run begins; the whole thickness where it does not end. Cake
+// Height above the first edge up to which slices hold at least `threshold`: a run of such slices that begins within
+// `wall_layer` of the first edge and ends where the profile, linear between the middles of slices, falls through the
+// threshold. 0 where no such run begins; the whole thickness where it ends within `wall_layer` of the last edge. Cake
 // thickness from the substrate up; skin thickness with profile and edges turned over.
 double dense_thickness(const std::vector<double>& edges, const std::vector<double>& volume_fraction,
                        double threshold, double wall_layer);

@@ -125,6 +125,7 @@ TEST(DenseThickness, EndsWhereTheProfileFallsThroughTheThreshold) {
   EXPECT_DOUBLE_EQ(dense_thickness(edges, {0.4, 0.4, 0.4, 0.4}, 0.5, 1), 0);
   EXPECT_DOUBLE_EQ(dense_thickness(edges, {0.3, 0.6, 0.4, 0.4}, 0.5, 1), 2);  // a loose slice at the wall
   EXPECT_DOUBLE_EQ(dense_thickness(edges, {0.3, 0.4, 0.6, 0.4}, 0.5, 1), 0);  // dense only far from it
+  EXPECT_DOUBLE_EQ(dense_thickness(edges, {0.3, 0.6, 0.6, 0.3}, 0.5, 1), 4);  // loose at both walls only
 }
 
 TEST(SolidsProfile, FindsCakeAndSkin) {
