@@ -39,7 +39,7 @@ void declare(app::CommandLine& line) {
   line.option("--packing", options.packing, "the particles (packing.h5, or box, position and radius made by hand)", true);
   line.option("--dewatering", options.dewatering, "the liquid lost against time (dewatering.h5); without it the liquid rests");
   line.option("--kbrown", options.kbrown, "calibration of K_Brown (kbrown.h5); without it the closed form is used");
-  line.option("--checkpoint-every", options.checkpoint_every, "wall time between checkpoints, s (default 30)");
+  line.option("--checkpoint-every", options.checkpoint_every, "wall time between checkpoints besides those at frames, s (default 30)");
   line.flag("--restart", options.restart, "set an existing checkpoint aside and begin anew");
   line.output_required();
   line.has_threads();
@@ -51,7 +51,15 @@ std::vector<io::ObservableInfo> observables() {
   return infos;
 }
 
+// Whether a state is one to go on from: what is not finite, or lacks its last frame, would only fail again otherwise.
+bool is_sound(const stepping::RunState& state, const io::TrajectoryWriter& writer) {
+  return static_cast<std::size_t>(state.frame) == writer.frame_count() &&
+         std::all_of(state.position.begin(), state.position.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
 void run(app::CommandLine& line) {
+  if (options.checkpoint_every < 0)
+    throw InputError(fmt::format("--checkpoint-every: {} is not a time; write 0 s or more", options.checkpoint_every));
   config::Document document(options.scene, line.common.set);
   const scene::Scene scene = scene::read_scene(document, "consolidate");
   const io::ParticleFile packing(options.packing);
@@ -116,11 +124,15 @@ void run(app::CommandLine& line) {
   try {
     outcome = stepping::consolidate(problem, settings, state, callbacks);
   } catch (const NumericsError& error) {
-    save(state);
+    if (is_sound(state, writer)) save(state);
     writer.finish_failed(error.what());
     throw;
   }
-  if (outcome == "interrupted") throw app::Interrupted{app::stop_requested()};
+  if (outcome == "interrupted") {
+    note(fmt::format("stopped by a signal at t = {:.6g} s; the same command goes on from {}", state.time * 1e-3,
+                     io::checkpoint_path(line.common.output).string()));
+    throw app::Interrupted{app::stop_requested()};
+  }
   progress.finish(fmt::format("{} at t = {:.4g} s, {} steps", outcome, state.time * 1e-3, state.step));
   writer.finish(outcome);
   io::remove_checkpoint(line.common.output);

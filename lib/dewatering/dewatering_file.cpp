@@ -1,8 +1,11 @@
 #include "dewatering/dewatering_file.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "base/error.h"
+#include "dewatering/table.h"
 
 namespace pigment::dewatering {
 namespace {
@@ -76,7 +79,9 @@ DewateringCurve read_curve(const std::filesystem::path& path) {
   check.rising_from_zero(curve.time, "/dewatering/time", true);
   check.none_below(curve.absorption_flux, 0, "/dewatering/absorption_flux", "is negative");
   check.none_below(curve.evaporation_flux, 0, "/dewatering/evaporation_flux", "is negative");
-  check.none_below(curve.temperature, 1e-300, "/dewatering/temperature", "is not above 0 K");
+  for (std::size_t i = 0; i < curve.temperature.size(); ++i)
+    check.demand(curve.temperature[i] >= coldest && curve.temperature[i] <= hottest, "/dewatering/temperature",
+                 fmt::format("is {:.6g} K at point {}, expected {} to {} K", curve.temperature[i], i, coldest, hottest));
   if (!curve.absorbed.empty()) check.rising_from_zero(curve.absorbed, "/dewatering/absorbed", false);
   if (!curve.evaporated.empty()) check.rising_from_zero(curve.evaporated, "/dewatering/evaporated", false);
   return curve;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double jump = 1e-9;            // of the table's length
 constexpr double chord_tolerance = 1e-6;  // of the liquid removed over the table
-constexpr double coldest = 253.15, hottest = 383.15;  // K, range of the correlations for water [patek2009]
 
 void check_rows(const config::CsvTable& table) {
   const auto& time = *table.find("time");

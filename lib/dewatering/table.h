@@ -6,6 +6,8 @@
 
 namespace pigment::dewatering {
 
+inline constexpr double coldest = 253.15, hottest = 383.15;  // K, range of the correlations for water [patek2009]
+
 // Columns `time [s],absorption [g/m2/s],evaporation [g/m2/s]` and optionally `temperature [degC]`; mass fluxes become
 // volume fluxes by the liquid's density (engine units). Linear between rows; a time that stands twice is a jump, kept as
 // two points a billionth of the table's length apart. Points are added between rows until the cumulative curves, exact at
