@@ -1,0 +1,142 @@
+// What acts between one particle and the liquid, the substrate and the free surface in a step.
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/step_assembly.h"
+#include "forces/surface_spring.h"
+#include "resistance/scene_resistance.h"
+
+namespace pigment::assembly {
+
+double StepAssembly::wall_resistance(int k) const {
+  const double a = radius_[k], gap = resistance::hydrodynamic_gap(position_[k].z() - a, a);
+  double value = resistance::wall_term(interactions_.hydrodynamics, a, gap).perpendicular;
+  const double guess = substrate_geometry_[k].gap;
+  if (guess != position_[k].z() - a && guess > 0 && gap > 0) value += resistance::wall_step_average_increment(a, gap, guess);
+  return value;
+}
+
+StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
+  SubstrateState s{position_[k].z() - radius_[k], 0, 0};
+  if (interactions_.substrate->colloidal)
+    for (const auto& law : laws_) {
+      const forces::PairTerm t = law->switched(substrate_geometry_[k]);
+      s.force += t.force;
+      s.stiffness += t.stiffness;
+    }
+  // The plane stops particles whatever the forces.
+  if (substrate_geometry_[k].gap < 0) {
+    s.force -= forces::contact_stiffness * substrate_geometry_[k].gap;
+    s.stiffness += forces::contact_stiffness;
+  }
+  return s;
+}
+
+StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
+  const forces::FreeSurfaceParameters& surface = *interactions_.free_surface;
+  const double a = radius_[k], gap = film_.height_begin - position_[k].z() - a;
+  SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
+  // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
+  if (interactions_.lubrication())
+    s.resistance = resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(gap, surface.roughness)).perpendicular;
+  if (protrusion_guess_[k] > held) {
+    const forces::SpringForce spring = forces::surface_spring(surface, a, protrusion_guess_[k]);
+    s.force = spring.force;
+    s.stiffness = spring.stiffness;
+  }
+  return s;
+}
+
+void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* rhs) const {
+  const int D = system.unknowns_per_particle();
+  const double mu = liquid_.viscosity, dt = implicit_ ? dt_ : 0;
+  for (int k = topology_.chunks().begin[chunk]; k < topology_.chunks().begin[chunk + 1]; ++k) {
+    const double a = radius_[k], drag = mu * resistance::stokes_drag(a);
+    solve::ParticleTerm t{drag, drag, 0, mu * resistance::stokes_torque(a), mu * resistance::stokes_torque(a)};
+    double* f = rhs + static_cast<std::size_t>(k) * D;
+    for (int d = 0; d < D; ++d) f[d] = 0;
+    if (!external_force_.empty())
+      for (int d = 0; d < 3; ++d) f[d] += external_force_[k][d];
+    f[2] -= drag * film_.absorption;  // (10): relative to the liquid, which moves with -q e_z
+    if (interactions_.gravity)
+      f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
+    if (interactions_.substrate) {
+      if (interactions_.lubrication()) {
+        const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, position_[k].z() - a);
+        const double perpendicular = mu * wall_resistance(k);
+        t.along += perpendicular;
+        t.across += mu * w.parallel;
+        t.coupling += mu * w.coupling;
+        t.spin_along += mu * w.twist;
+        t.spin_across += mu * w.rolling;
+        if (interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform)
+          f[2] -= perpendicular * film_.absorption;
+      }
+      const SubstrateState s = substrate_state(k);
+      const double stiffness = std::max(s.stiffness, 0.0);
+      f[2] += s.force + (implicit_ ? stiffness * (substrate_geometry_[k].gap - s.gap_begin) : 0);
+      t.along += dt * stiffness;
+    }
+    if (interactions_.free_surface) {
+      const SurfaceState s = surface_state(k);
+      if (interactions_.lubrication()) {
+        const resistance::BoundaryScalars w =
+            resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(s.gap_begin, interactions_.free_surface->roughness));
+        t.across += mu * w.parallel;
+        t.coupling += mu * w.coupling;
+        t.spin_along += mu * w.twist;
+        t.spin_across += mu * w.rolling;
+        t.along += mu * s.resistance;
+        const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
+        f[2] -= mu * s.resistance * (film_.absorption + (squeeze ? 0 : film_.evaporation));
+      }
+      // protrusion at the end: p1 = z0 + a + dt U_z + roughness - H1
+      const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - film_.height_end;
+      if (s.stiffness > 0) {
+        f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
+        t.along += dt_ * s.stiffness;
+      }
+      system.held[k] = protrusion_guess_[k] == held;
+      system.held_velocity[k] = system.held[k] ? -without_motion / dt_ : 0;
+    }
+    system.particle[k] = t;
+  }
+}
+
+BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u) const {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  const double mu = liquid_.viscosity;
+  BoundaryPressures total;
+  for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
+    const double uz = u[k * D + 2];
+    if (interactions_.free_surface) {
+      const SurfaceState s = surface_state(k);
+      const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
+      total.surface += mu * s.resistance * (uz + film_.absorption + (squeeze ? 0 : film_.evaporation));
+      if (s.stiffness > 0) total.surface += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
+      if (protrusion_guess_[k] == held) total.surface += holding_force_[k];
+      if (protrusion_guess_[k] > 0) ++total.contacts;
+    }
+    if (interactions_.substrate) {
+      const SubstrateState s = substrate_state(k);
+      const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
+      total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - substrate_geometry_[k].gap);
+      const bool uniform = interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform;
+      if (interactions_.lubrication()) total.substrate -= mu * wall_resistance(k) * (uz + (uniform ? film_.absorption : 0));
+    }
+  }
+  total.surface /= cell_.area();
+  total.substrate /= cell_.area();
+  return total;
+}
+
+std::vector<double> StepAssembly::protrusions() const {
+  std::vector<double> result(order_.size(), 0.0);
+  if (interactions_.free_surface)
+    for (std::size_t k = 0; k < order_.size(); ++k)
+      // A held particle stays held until the force would pull; a free one starts the next step free.
+      result[order_[k]] = protrusion_guess_[k] > held ? std::max(protrusion_end_[k], 2 * held) : protrusion_guess_[k];
+  return result;
+}
+
+}  // namespace pigment::assembly
