@@ -1,6 +1,8 @@
 // cluster: which particles hang together, frame by frame.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/clusters.h"
 #include "app/analysis_input.h"
 #include "base/log.h"
@@ -12,7 +14,41 @@ using namespace pigment;
 using analysis::Clusters;
 using Storage = io::Dataset::Storage;
 
-io::ResultFile to_result(const std::vector<Clusters>& frames, const Particles& particles, double threshold) {
+// The connections of all frames behind one another; begin[k] is where those of frame k begin.
+void add_connections(io::ResultFile& result, const std::vector<Clusters>& frames) {
+  std::vector<std::int64_t> begin{0}, first, second;
+  std::vector<double> separation;
+  for (const Clusters& frame : frames) {
+    for (const analysis::Connection& c : frame.pairs) {
+      first.push_back(c.first);
+      second.push_back(c.second);
+      separation.push_back(c.separation);
+    }
+    begin.push_back(static_cast<std::int64_t>(first.size()));
+  }
+  const std::string group = "/cluster/connection/";
+  result.datasets.push_back(io::column(group + "begin", Dimension::Number, begin, Storage::Int64));
+  result.datasets.push_back(io::column(group + "first", Dimension::Number, first, Storage::Int64));
+  result.datasets.push_back(io::column(group + "second", Dimension::Number, second, Storage::Int64));
+  result.datasets.push_back(io::column(group + "separation", Dimension::Length, separation, Storage::Float32));
+}
+
+// Particles by their number of neighbours, [frames, most neighbours + 1].
+io::Dataset coordination_of(const std::vector<Clusters>& frames) {
+  std::size_t most = 1;
+  for (const Clusters& c : frames) most = std::max(most, c.coordination.size());
+  return io::column(
+      "/cluster/coordination", Dimension::Number, frames,
+      [most](const Clusters& c) {
+        auto counts = c.coordination;
+        counts.resize(most, 0);
+        return counts;
+      },
+      Storage::Int64);
+}
+
+io::ResultFile to_result(const std::vector<Clusters>& frames, const Particles& particles, double threshold,
+                         const ColumnGrid& columns) {
   io::ResultFile result;
   result.kind = "cluster";
   const auto add = [&](const char* name, Dimension dimension, auto member,
@@ -38,6 +74,18 @@ io::ResultFile to_result(const std::vector<Clusters>& frames, const Particles& p
   result.datasets.push_back(io::column(
       "/cluster/percolates", Dimension::Number, frames,
       [](const Clusters& c) { return c.percolates ? 1 : 0; }, Storage::Int64));
+  add("mean_coordination", Dimension::Number, &Clusters::mean_coordination);
+  result.datasets.push_back(coordination_of(frames));
+  add_connections(result, frames);
+  io::Dataset cake = io::column(
+      "/cluster/cake_height", Dimension::Length, frames,
+      [](const Clusters& c) -> const auto& { return c.cake_height; }, Storage::Float32);
+  cake.shape = {frames.size(), columns.x, columns.y};
+  result.datasets.push_back(std::move(cake));
+  add("mean_cake_height", Dimension::Length, &Clusters::mean_cake_height);
+  add("cake_roughness", Dimension::Length, &Clusters::cake_roughness);
+  if (const auto time = analysis::percolation_time(frames))
+    result.numbers["percolation_time"] = to_si(Dimension::Time, *time);
   result.numbers["threshold"] = to_si(Dimension::Length, threshold);
   return result;
 }
@@ -49,8 +97,8 @@ int main(int argc, char** argv) {
   const auto declare = [&](app::CommandLine& line) {
     line.describe(
         "Clusters of particles whose surfaces are closer than analysis.cluster_threshold, in every frame: "
-        "identity, "
-        "size, neighbours, vertical extent, and whether one reaches from the substrate to the surface.",
+        "identity, size, neighbours, vertical extent, connections with their distances, whether and when one "
+        "reaches from the substrate to the surface, and the height of the filter cake from place to place.",
         "pigment-cluster trajectory.h5 --set 'analysis.cluster_threshold=50 nm' -o cluster.h5");
     line.references(
         "Sand, A.: Microscopic Simulation of Pigment Coating Consolidation, Abo Akademi 2010, 3.5.3 and 4.5");
@@ -60,9 +108,10 @@ int main(int argc, char** argv) {
     const app::AnalysisInput input = app::open_analysis_input(line, options, "cluster");
     const double threshold = input.parameters.cluster_threshold;
     app::require_within_half_period(input, "cluster_threshold", threshold);
-    const auto frames =
-        analysis::find_clusters(input.frames, input.particles().radius, input.particles().id, threshold);
-    io::ResultFile result = to_result(frames, input.particles(), threshold);
+    const ColumnGrid columns = columns_of(input.file->layer(0).cell, input.parameters.envelope_column);
+    const auto frames = analysis::find_clusters(input.frames, input.particles().radius, input.particles().id,
+                                                threshold, columns);
+    io::ResultFile result = to_result(frames, input.particles(), threshold, columns);
     result.provenance = input.provenance;
     io::write_result(line.common.output, result);
     const Clusters& last = frames.back();

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/trajectories.h"
 #include "app/analysis_input.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -80,6 +81,24 @@ io::ResultFile to_result(const analysis::Mobility& mobility, const Particles& pa
   return result;
 }
 
+void add_trajectories(io::ResultFile& result, const analysis::Trajectories& paths, const Particles& particles) {
+  const std::string group = "/mobility/trajectory/";
+  std::vector<std::int64_t> id;
+  std::vector<double> radius, position;
+  for (const std::size_t i : paths.particle) {
+    id.push_back(particles.id[i]);
+    radius.push_back(particles.radius[i]);
+  }
+  for (const Vec3Array& frame : paths.position)
+    for (const Vec3& p : frame) position.insert(position.end(), {p.x(), p.y(), p.z()});
+  result.datasets.push_back(io::column(group + "particle_id", Dimension::Number, id, Storage::Int64));
+  result.datasets.push_back(io::column(group + "radius", Dimension::Length, radius));
+  result.datasets.push_back(io::column(group + "time", Dimension::Time, paths.time));
+  result.datasets.push_back(io::column(group + "thickness", Dimension::Length, paths.thickness));
+  result.datasets.push_back(
+      {group + "position", {paths.time.size(), paths.particle.size(), 3}, position, Dimension::Length});
+}
+
 std::vector<std::size_t> frames_to_compare(const app::AnalysisInput& input) {
   const std::vector<double>& time = input.file->times();
   const std::string file = input.file->path().string();
@@ -108,7 +127,7 @@ int main(int argc, char** argv) {
     line.describe(
         "Distributions of particle displacements between frames: absolute, vertical and lateral, by start "
         "height "
-        "and size class; local and global speed of each particle.",
+        "and size class; local and global speed of each particle; the paths of chosen ones.",
         "pigment-mobility trajectory.h5 --set 'analysis.mobility_interval=50 ms' -o mobility.h5");
     line.references(
         "Sand, A.: Microscopic Simulation of Pigment Coating Consolidation, Abo Akademi 2010, 3.5.2 and 4.3");
@@ -117,9 +136,16 @@ int main(int argc, char** argv) {
   return app::run_tool("mobility", argc, argv, declare, [&](app::CommandLine& line) {
     const app::AnalysisInput input = app::open_analysis_input(line, options, "mobility");
     const auto numbers = frames_to_compare(input);
+    analysis::Parameters every_frame = input.parameters;
+    every_frame.mobility_interval.reset();
+    const auto window = analysis::choose_frames(input.file->times(), every_frame);
+    const auto followed =
+        analysis::choose_particles(input.frames.read(window.front()), input.particles().radius,
+                                   input.particles().id, input.parameters);
     const auto mobility =
         analysis::measure_mobility(input.frames, numbers, input.particles().radius, input.parameters);
     io::ResultFile result = to_result(mobility, input.particles(), input.parameters);
+    add_trajectories(result, analysis::follow_particles(input.frames, window, followed), input.particles());
     result.provenance = input.provenance;
     io::write_result(line.common.output, result);
     const double span = mobility.intervals.back().end - mobility.intervals.front().start;

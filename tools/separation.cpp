@@ -33,6 +33,9 @@ io::ResultFile to_result(const analysis::SeparationDevelopment& development) {
   result.datasets.push_back(io::column("/separation/near_edges", Dimension::Length, development.near_edges));
   add("near_cumulative", Dimension::Number, &Separations::near_cumulative);
   add("near_pairs", Dimension::Number, &Separations::near_pairs, Storage::Int64);
+  result.datasets.push_back(
+      io::column("/separation/radial_edges", Dimension::Length, development.radial_edges));
+  add("radial_distribution", Dimension::Number, &Separations::radial);
   result.numbers["limit"] = to_si(Dimension::Length, development.limit);
   return result;
 }
@@ -45,7 +48,8 @@ int main(int argc, char** argv) {
     line.describe(
         "Distribution of the surface separations of near neighbours in every frame, up to the smallest "
         "diameter, so "
-        "that no particle lies between (or analysis.separation_limit), and the cumulative one near contact.",
+        "that no particle lies between (or analysis.separation_limit), the cumulative one near contact, and the "
+        "radial distribution function of the centres.",
         "pigment-separation trajectory.h5 --scene scene.yaml -o separation.h5");
     line.references(
         "Sand, A.: Microscopic Simulation of Pigment Coating Consolidation, Abo Akademi 2010, 3.5.3 and 4.4");
@@ -55,6 +59,8 @@ int main(int argc, char** argv) {
     const app::AnalysisInput input = app::open_analysis_input(line, options, "separation");
     if (input.parameters.separation_limit)
       app::require_within_half_period(input, "separation_limit", *input.parameters.separation_limit);
+    if (input.parameters.radial_limit)
+      app::require_within_half_period(input, "radial_limit", *input.parameters.radial_limit);
     app::require_within_half_period(input, "near_separation_limit", input.parameters.near_separation_limit);
     const auto development =
         analysis::measure_separations(input.frames, input.particles().radius, input.parameters);

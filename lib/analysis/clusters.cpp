@@ -1,5 +1,7 @@
 #include "analysis/clusters.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -35,10 +37,29 @@ class DisjointSets {
   std::vector<std::int64_t> size_;
 };
 
+// in_cake(particle): whether it belongs to the filter cake.
+template <typename InCake>
+void measure_cake(Clusters& result, const Snapshot& frame, const std::vector<double>& radius,
+                  const ColumnGrid& columns, const InCake& in_cake) {
+  Vec3Array position;
+  std::vector<double> cake_radius;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    if (!in_cake(i)) continue;
+    position.push_back(frame.position[i]);
+    cake_radius.push_back(radius[i]);
+  }
+  result.cake_height = top_of_columns(frame.cell, position, cake_radius, columns);
+  const auto count = static_cast<double>(columns.count());
+  double squares = 0;
+  for (const double h : result.cake_height) result.mean_cake_height += h / count;
+  for (const double h : result.cake_height) squares += std::pow(h - result.mean_cake_height, 2);
+  result.cake_roughness = std::sqrt(squares / count);
+}
+
 }  // namespace
 
 Clusters find_clusters(const Snapshot& frame, const std::vector<double>& radius,
-                       const std::vector<std::int64_t>& id, double threshold) {
+                       const std::vector<std::int64_t>& id, double threshold, const ColumnGrid& columns) {
   const std::size_t particles = frame.position.size();
   Clusters result;
   result.time = frame.time;
@@ -51,6 +72,8 @@ Clusters find_clusters(const Snapshot& frame, const std::vector<double>& radius,
     ++result.neighbours[i];
     ++result.neighbours[j];
     ++result.connections;
+    const double distance = frame.cell.minimum_image(frame.position[j] - frame.position[i]).norm();
+    result.pairs.push_back({a, b, distance - radius[i] - radius[j]});
   }
 
   // What a cluster has in common, kept at its root.
@@ -85,7 +108,16 @@ Clusters find_clusters(const Snapshot& frame, const std::vector<double>& radius,
     result.largest_extent = std::max(result.largest_extent, of.top - of.bottom);
     if (of.bottom <= threshold && frame.cell.height - of.top <= threshold) result.percolates = true;
   }
+  for (const std::int64_t n : result.neighbours) {
+    const auto k = static_cast<std::size_t>(n);
+    if (result.coordination.size() <= k) result.coordination.resize(k + 1, 0);
+    ++result.coordination[k];
+  }
+  if (columns.count() > 0)
+    measure_cake(result, frame, radius, columns,
+                 [&](std::size_t i) { return common[sets.root(i)].bottom <= threshold; });
   if (particles > 0) {
+    result.mean_coordination = 2.0 * static_cast<double>(result.connections) / static_cast<double>(particles);
     result.clustered_fraction = static_cast<double>(clustered) / static_cast<double>(particles);
     result.largest_fraction = static_cast<double>(result.largest) / static_cast<double>(particles);
     result.clustered_volume_fraction = clustered_volume / volume;
@@ -94,9 +126,16 @@ Clusters find_clusters(const Snapshot& frame, const std::vector<double>& radius,
 }
 
 std::vector<Clusters> find_clusters(const Frames& frames, const std::vector<double>& radius,
-                                    const std::vector<std::int64_t>& id, double threshold) {
-  return measure_frames(frames,
-                        [&](const Snapshot& frame) { return find_clusters(frame, radius, id, threshold); });
+                                    const std::vector<std::int64_t>& id, double threshold,
+                                    const ColumnGrid& columns) {
+  return measure_frames(
+      frames, [&](const Snapshot& frame) { return find_clusters(frame, radius, id, threshold, columns); });
+}
+
+std::optional<double> percolation_time(const std::vector<Clusters>& frames) {
+  const auto first = std::find_if(frames.begin(), frames.end(), [](const Clusters& c) { return c.percolates; });
+  if (first == frames.end()) return std::nullopt;
+  return first->time;
 }
 
 }  // namespace pigment::analysis

@@ -1,6 +1,7 @@
 #include "analysis/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pigment::analysis {
 
@@ -15,6 +16,20 @@ std::optional<double> automatic_or(config::Node& node, const std::string& key, D
 
 int count(config::Node& node, const std::string& key, int default_value, int most = 10000) {
   return static_cast<int>(node.integer(key, default_value, config::between(1, most)));
+}
+
+// A list of ids, or `auto`.
+std::optional<std::vector<std::int64_t>> ids(config::Node& node, const std::string& key) {
+  if (!node.has(key) || node.is_word(key, "auto")) {
+    node.accept_word(key, "auto");
+    return std::nullopt;
+  }
+  std::vector<std::int64_t> result;
+  for (const double id : node.quantities(key, Dimension::Number, {})) {
+    if (id != std::floor(id) || std::abs(id) > 9e15) node.error(key, "must be auto or ids of particles, whole numbers");
+    result.push_back(static_cast<std::int64_t>(id));
+  }
+  return result;
 }
 
 bool rises(const std::vector<double>& values) {
@@ -47,6 +62,8 @@ Parameters read_analysis(config::Node node) {
   p.near_separation_limit =
       node.quantity("near_separation_limit", Dimension::Length, "50 nm", config::positive());
   p.near_separation_bins = count(node, "near_separation_bins", p.near_separation_bins);
+  p.radial_limit = automatic_or(node, "radial_limit", Dimension::Length, config::positive());
+  p.radial_bins = count(node, "radial_bins", p.radial_bins);
   p.mobility_start = node.quantity("mobility_start", Dimension::Time, "0 s", config::non_negative());
   p.mobility_end = automatic_or(node, "mobility_end", Dimension::Time, config::positive());
   if (p.mobility_end && *p.mobility_end <= p.mobility_start)
@@ -62,6 +79,7 @@ Parameters read_analysis(config::Node node) {
                "must be two depths below the surface, the smaller first; write e.g. [0.5 um, 2 um]");
     p.surface_band = {0.5, 2.0};
   }
+  p.trajectories = ids(node, "trajectories");
   return p;
 }
 

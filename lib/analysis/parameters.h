@@ -1,6 +1,8 @@
 #pragma once
 // The scene's `analysis` block: how the tools that read packings and trajectories measure them.
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "config/node.h"
@@ -24,6 +26,8 @@ struct Parameters {
   int separation_bins = 100;
   double near_separation_limit = 0.050;  // um, the range of the cumulative distribution near contact
   int near_separation_bins = 50;
+  std::optional<double> radial_limit;  // um between centres; auto: three mean diameters by number
+  int radial_bins = 100;
   // mobility
   double mobility_start = 0;                 // ms, the window of frames that is looked at
   std::optional<double> mobility_end;        // ms; auto: the last frame
@@ -32,6 +36,8 @@ struct Parameters {
   int displacement_bins = 100;
   int height_bands = 4;                        // equal bands of start height, and one below the surface:
   std::vector<double> surface_band{0.5, 2.0};  // um, its least and greatest depth below the surface
+  std::optional<std::vector<std::int64_t>>
+      trajectories;  // ids of the particles to follow; auto: one of the finest class in each height band
 
   // Size class of a diameter, 0 (finest) to size_classes.size(); a diameter on a border belongs to the finer
   // class.

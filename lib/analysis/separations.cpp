@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/histogram.h"
+#include "analysis/radial_distribution.h"
 #include "neighbours/pair_search.h"
 
 namespace pigment::analysis {
@@ -48,6 +49,14 @@ Separations separations_of(const Snapshot& frame, const std::vector<double>& rad
   return result;
 }
 
+double automatic_radial_limit(const Frames& frames, const std::vector<double>& radius) {
+  if (frames.count == 0 || radius.empty()) return 1;
+  const Cell cell = frames.read(0).cell;
+  double mean = 0;
+  for (const double a : radius) mean += 2 * a / static_cast<double>(radius.size());
+  return std::min(3 * mean, 0.5 * std::min(cell.width_x, cell.width_y));
+}
+
 }  // namespace
 
 SeparationDevelopment measure_separations(const Frames& frames, const std::vector<double>& radius,
@@ -59,8 +68,14 @@ SeparationDevelopment measure_separations(const Frames& frames, const std::vecto
   const auto near_bins = static_cast<std::size_t>(parameters.near_separation_bins);
   result.edges = equal_bins(result.limit, bins);
   result.near_edges = equal_bins(parameters.near_separation_limit, near_bins);
+  const double radial_limit = parameters.radial_limit.value_or(automatic_radial_limit(frames, radius));
+  const auto radial_bins = static_cast<std::size_t>(parameters.radial_bins);
+  result.radial_edges = equal_bins(radial_limit, radial_bins);
   result.frames = measure_frames(frames, [&](const Snapshot& frame) {
-    return separations_of(frame, radius, result.limit, bins, parameters.near_separation_limit, near_bins);
+    Separations of =
+        separations_of(frame, radius, result.limit, bins, parameters.near_separation_limit, near_bins);
+    of.radial = radial_distribution(frame, radial_limit, radial_bins);
+    return of;
   });
   return result;
 }

@@ -21,17 +21,20 @@ struct Separations {
   std::int64_t near_pairs = 0;         // closer than the near limit
   std::vector<double>
       near_cumulative;  // near edges: share of the near pairs closer than the edge (at edge 0: overlapping)
+  std::vector<double> radial;  // g(r) of the centres, a radial bin (radial_distribution.h)
 };
 
 struct SeparationDevelopment {
   double limit = 0;                // um
   std::vector<double> edges;       // um, bins + 1, from 0 to the limit
   std::vector<double> near_edges;  // um, from 0 to the near limit
+  std::vector<double> radial_edges;  // um, between centres
   std::vector<Separations> frames;
 };
 
 // Without a limit in the parameters it is the smallest diameter, so that no third particle fits between two
-// neighbours.
+// neighbours. Without a radial limit it is three times the mean diameter by number, or half the period of the first
+// frame if that is less.
 SeparationDevelopment measure_separations(const Frames&, const std::vector<double>& radius,
                                           const Parameters&);
 

@@ -84,12 +84,18 @@ std::vector<double> equal_slices(double height, int slices) {
   return edges;
 }
 
-double top_envelope(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
-                    double column) {
-  const long nx = std::max(1L, std::lround(cell.width_x / column)),
-             ny = std::max(1L, std::lround(cell.width_y / column));
+ColumnGrid columns_of(const Cell& cell, double column) {
+  const auto along = [&](double width) {
+    return static_cast<std::size_t>(std::max(1L, std::lround(width / column)));
+  };
+  return {along(cell.width_x), along(cell.width_y)};
+}
+
+std::vector<double> top_of_columns(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
+                                   const ColumnGrid& columns) {
+  const long nx = static_cast<long>(columns.x), ny = static_cast<long>(columns.y);
   const double dx = cell.width_x / static_cast<double>(nx), dy = cell.width_y / static_cast<double>(ny);
-  std::vector<double> top(static_cast<std::size_t>(nx * ny), 0.0);
+  std::vector<double> top(columns.count(), 0.0);
   const auto wrapped = [](long k, long n) { return ((k % n) + n) % n; };
   for (std::size_t i = 0; i < position.size(); ++i) {
     const double a = radius[i];
@@ -107,9 +113,15 @@ double top_envelope(const Cell& cell, const Vec3Array& position, const std::vect
       }
     }
   }
+  return top;
+}
+
+double top_envelope(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
+                    double column) {
+  const ColumnGrid columns = columns_of(cell, column);
   double sum = 0;
-  for (double height : top) sum += height;
-  return sum / static_cast<double>(top.size());
+  for (double height : top_of_columns(cell, position, radius, columns)) sum += height;
+  return sum / static_cast<double>(columns.count());
 }
 
 NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height,

@@ -5,6 +5,7 @@
 // any thread count. Radii and positions are arrays of one length, one entry a particle; heights in um above
 // the substrate.
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "base/vec.h"
@@ -38,8 +39,20 @@ std::vector<double> slice_volumes(const std::vector<double>& edges, const Vec3Ar
 // slices + 1 equally spaced planes from 0 to height.
 std::vector<double> equal_slices(double height, int slices);
 
-// Mean over vertical lines on a square grid of about `column` um (a whole number in each width) of the
-// highest point at which the line meets a sphere, um; a line that meets none counts as 0, the substrate.
+// Columns of equal section that fill a cell's area.
+struct ColumnGrid {
+  std::size_t x = 0, y = 0;
+  std::size_t count() const { return x * y; }
+};
+// Of about `column` um, a whole number in each width.
+ColumnGrid columns_of(const Cell&, double column);
+
+// The highest point at which each column's axis meets a sphere, um, [x * grid.y + y]; an axis that meets none has 0,
+// the substrate.
+std::vector<double> top_of_columns(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
+                                   const ColumnGrid&);
+
+// Mean of the top over columns of about `column` um.
 double top_envelope(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
                     double column = 0.25);
 

@@ -37,6 +37,91 @@ TEST(Clusters, JoinAcrossThePeriodicBoundary) {
   EXPECT_DOUBLE_EQ(c.extent[4], 2);
   EXPECT_DOUBLE_EQ(c.largest_extent, 2);
   EXPECT_FALSE(c.percolates);
+  // Gaps of 1.01 um less a diameter, and of nothing.
+  ASSERT_EQ(c.pairs.size(), 3u);
+  EXPECT_EQ(c.pairs[0].first, 0);
+  EXPECT_EQ(c.pairs[0].second, 1);
+  EXPECT_NEAR(c.pairs[0].separation, 0.01, 1e-14);
+  EXPECT_EQ(c.pairs[1].second, 2);
+  EXPECT_NEAR(c.pairs[1].separation, 0.01, 1e-14);
+  EXPECT_EQ(c.pairs[2].first, 4);
+  EXPECT_NEAR(c.pairs[2].separation, 0, 1e-14);
+  EXPECT_EQ(c.coordination, (std::vector<std::int64_t>{1, 4, 1}));
+  EXPECT_DOUBLE_EQ(c.mean_coordination, 1);
+}
+
+TEST(Clusters, OfACubicLatticeHaveItsCoordination) {
+  // 5 x 5 x 5 touching spheres, periodic in x and y: six neighbours inside, five in the lowest and highest plane.
+  Snapshot frame;
+  frame.cell = {5, 5, 5};
+  for (int x = 0; x < 5; ++x)
+    for (int y = 0; y < 5; ++y)
+      for (int z = 0; z < 5; ++z) frame.position.push_back({x + 0.5, y + 0.5, z + 0.5});
+  const Clusters c = find_clusters(frame, std::vector<double>(125, 0.495), ids(125), 0.02);
+  EXPECT_EQ(c.coordination, (std::vector<std::int64_t>{0, 0, 0, 0, 0, 50, 75}));
+  EXPECT_DOUBLE_EQ(c.mean_coordination, (50 * 5 + 75 * 6) / 125.0);
+  EXPECT_EQ(c.count, 1);
+  EXPECT_TRUE(c.percolates);
+  for (const Connection& pair : c.pairs) EXPECT_NEAR(pair.separation, 0.01, 1e-14);
+}
+
+TEST(Clusters, OfSpheresAtRandomHaveThePoissonCoordination) {
+  // Points at random, one a um^3, have 4/3 pi d^3 others closer than d, less what the faces take: 1 - 3 d/(8 H) of it.
+  Snapshot frame;
+  const double height = 40, closer = 0.8;
+  frame.cell = {20, 20, height};
+  for (std::size_t i = 0; i < 16000; ++i) {
+    const auto u = random_uniforms({41, Stream::Tests}, i);
+    frame.position.push_back({20 * u[0], 20 * u[1], height * u[2]});
+  }
+  const Clusters c = find_clusters(frame, std::vector<double>(16000, 0.001), ids(16000), closer - 0.002);
+  const double expected = 4.0 / 3 * 3.141592653589793 * std::pow(closer, 3) * (1 - 3 * closer / (8 * height));
+  // The number of pairs is all but Poisson: four of its standard deviations, exceeded once in 16,000.
+  const double deviation = 2 / 16000.0 * std::sqrt(16000 * expected / 2);
+  EXPECT_NEAR(c.mean_coordination, expected, 4 * deviation);
+  // A share exp(-expected) has none.
+  const double alone = 16000 * std::exp(-expected);
+  EXPECT_NEAR(static_cast<double>(c.coordination[0]), alone, 4 * std::sqrt(alone) * 1.5);  // neighbours are shared
+}
+
+TEST(Clusters, CakeHeightIsThatOfAPlantedDeposit) {
+  // Columns of touching spheres: 3 high where x < 4, 1 high elsewhere, periodic; one sphere floats above, one hovers 0.1
+  // above a low column. Each column's axis goes through the middle of its spheres.
+  Snapshot frame;
+  frame.cell = {8, 4, 12};
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 4; ++y)
+      for (int z = 0; z < (x < 4 ? 3 : 1); ++z) frame.position.push_back({x + 0.5 - 16, y + 0.5 + 4, z + 0.5});
+  frame.position.push_back({6.5, 3.5, 9});
+  frame.position.push_back({5.5, 2.5, 1.6});
+  const std::size_t count = frame.position.size();
+  const ColumnGrid columns = columns_of(frame.cell, 1.1);
+  EXPECT_EQ(columns.x, 7u);
+  const ColumnGrid grid{8, 4};
+  const Clusters c = find_clusters(frame, std::vector<double>(count, 0.5), ids(count), 0.02, grid);
+  ASSERT_EQ(c.cake_height.size(), 32u);
+  for (std::size_t x = 0; x < 8; ++x)
+    for (std::size_t y = 0; y < 4; ++y) EXPECT_NEAR(c.cake_height[4 * x + y], x < 4 ? 3 : 1, 1e-12);
+  EXPECT_NEAR(c.mean_cake_height, 2, 1e-12);
+  EXPECT_NEAR(c.cake_roughness, 1, 1e-12);
+  // A wider threshold takes in what hovers, not what floats.
+  const Clusters wide = find_clusters(frame, std::vector<double>(count, 0.5), ids(count), 0.11, grid);
+  EXPECT_NEAR(wide.cake_height[4 * 5 + 2], 2.1, 1e-12);
+  EXPECT_NEAR(wide.cake_height[4 * 6 + 3], 1, 1e-12);
+}
+
+TEST(Clusters, PercolateFromAFrameOn) {
+  // The sphere that closes the chain arrives in the fourth frame, at 30 ms.
+  const Frames frames{6, [](std::size_t k) {
+                        Snapshot s;
+                        s.time = 10.0 * static_cast<double>(k);
+                        s.cell = {5, 5, 3};
+                        s.position = {{1, 1, 0.5}, {k < 3 ? 2.2 : 1.0, 1, 1.5}, {1, 1, 2.5}};
+                        return s;
+                      }};
+  const auto clusters = find_clusters(frames, {0.5, 0.5, 0.5}, ids(3), 0.02);
+  EXPECT_EQ(percolation_time(clusters), 30);
+  EXPECT_EQ(percolation_time({clusters[0], clusters[1]}), std::nullopt);
 }
 
 TEST(Clusters, EndAtTheThreshold) {
