@@ -21,6 +21,7 @@ function(pigment_find_plain target header library)
 endfunction()
 pigment_find_plain(cholmod cholmod.h cholmod)
 pigment_find_plain(udunits2 udunits2.h udunits2)
+pigment_find_plain(voro voro++/voro++.hh voro++)
 pigment_find_plain(random123 Random123/philox.h HEADER_ONLY)
 
 add_library(pigment_hdf5 INTERFACE)

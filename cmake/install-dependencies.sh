@@ -18,6 +18,7 @@ packages=(
   "libfmt-dev        messages (fmt)"
   "libudunits2-dev   units of quantities (udunits2)"
   "librandom123-dev  counter-based random numbers (Random123)"
+  "voro++-dev        the space that belongs to each particle (Voro++)"
   "libpng-dev        pictures (PNG)"
   "libssl-dev        SHA-256 of input files (OpenSSL)"
   "libgtest-dev      unit tests (GoogleTest)"

@@ -56,6 +56,13 @@ Parameters read_analysis(config::Node node) {
   p.envelope_column = node.quantity("envelope_column", Dimension::Length, "0.25 um", config::positive());
   p.immobilisation_window = node.quantity("immobilisation_window", Dimension::Time, "50 ms", config::positive());
   p.immobilisation_ratio = node.number("immobilisation_ratio", p.immobilisation_ratio, config::positive());
+  p.structure = node.choice<Parameters::Structure>("structure",
+                                                   {{"none", Parameters::Structure::None},
+                                                    {"last", Parameters::Structure::Last},
+                                                    {"all", Parameters::Structure::All}},
+                                                   "last");
+  p.pore_points = count(node, "pore_points", p.pore_points, 10'000'000);
+  p.pore_bins = count(node, "pore_bins", p.pore_bins);
   p.cluster_threshold = node.quantity("cluster_threshold", Dimension::Length, "20 nm", config::positive());
   p.separation_limit = automatic_or(node, "separation_limit", Dimension::Length, config::positive());
   p.separation_bins = count(node, "separation_bins", p.separation_bins);

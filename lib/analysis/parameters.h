@@ -18,6 +18,10 @@ struct Parameters {
   double envelope_column = 0.25;  // um, lateral step of the top envelope
   double immobilisation_ratio = 0.01;  // immobile: mass moved between heights over the window, over the surface's fall
   double immobilisation_window = 50;   // ms
+  enum class Structure { None, Last, All };
+  Structure structure = Structure::Last;  // frames whose local solids and pores are measured
+  int pore_points = 100000;               // at which the distance to the nearest particle is taken
+  int pore_bins = 50;
   // clusters
   double cluster_threshold = 0.020;  // um, surface separation below which two particles are connected
   // separations

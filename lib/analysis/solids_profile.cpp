@@ -40,7 +40,8 @@ double dense_thickness(const std::vector<double>& edges, const std::vector<doubl
   return middle + fall * (next - middle) - edges[0];
 }
 
-SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const Parameters& parameters) {
+SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const Parameters& parameters,
+                             ColumnGrid columns) {
   const auto slices = static_cast<std::size_t>(parameters.slices);
   const std::size_t classes = parameters.size_class_count();
   const double area = frame.cell.area(), height = frame.cell.height, liquid_density = solids.liquid_density;
@@ -103,12 +104,16 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
   for (std::size_t c = 0; c < classes; ++c) p.size_classes[c].number = std::move(number[c]);
 
   p.mean_volume_fraction = ratio(solid_volume, area * height);
+  p.porosity = 1 - ratio(volume_below, area * height);
   p.mean_mass_fraction =
       ratio(solid_mass, Filling{solid_volume, solid_mass, area * height, liquid_density}.mass());
   p.mass_centre = mass_centre(frame.position, solids.radius, solids.mass);
   p.z95 = height_below_which(0.95, frame.position, solids.radius);
   p.z99 = height_below_which(0.99, frame.position, solids.radius);
-  p.top_envelope = top_envelope(frame.cell, frame.position, solids.radius, parameters.envelope_column);
+  if (columns.count() == 0) columns = columns_of(frame.cell, parameters.envelope_column);
+  p.top_height = top_of_columns(frame.cell, frame.position, solids.radius, columns);
+  p.top_envelope = std::accumulate(p.top_height.begin(), p.top_height.end(), 0.0) /
+                   static_cast<double>(columns.count());
   p.protruding_fraction = protruding_fraction(height, frame.position, solids.radius);
   p.cake_thickness =
       dense_thickness(p.edges, p.volume_fraction, parameters.cake_solids, parameters.wall_layer);
@@ -154,18 +159,19 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
     if (k == 0) first = frame;
     return frame;
   };
+  const ColumnGrid columns = columns_of(frames.read(0).cell, parameters.envelope_column);
   std::vector<std::size_t> all(frames.count);
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<Measured> measured;
   if (frames.count > 1)
     measured = measure_intervals(kept, all, [&](const Snapshot& before, const Snapshot& after) {
-      return Measured{profile_solids(after, solids, parameters), non_affine_interval(before, after),
+      return Measured{profile_solids(after, solids, parameters, columns), non_affine_interval(before, after),
                       redistribution_between(before.position, after.position, solids.radius, before.cell.height,
                                              after.cell.height)};
     });
   else
     first = frames.read(0);
-  result.profiles.push_back(profile_solids(first, solids, parameters));
+  result.profiles.push_back(profile_solids(first, solids, parameters, columns));
   for (Measured& m : measured) {
     const SolidsProfile& before = result.profiles.back();
     const double dt = m.profile.time - before.time;
@@ -173,6 +179,7 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
       m.interval.mass_centre_rate =
           m.profile.thickness *
           (m.profile.mass_centre / m.profile.thickness - before.mass_centre / before.thickness) / dt;
+    m.profile.shrinkage = 1 - m.profile.thickness / result.profiles.front().thickness;
     result.profiles.push_back(std::move(m.profile));
     result.intervals.push_back(m.interval);
   }

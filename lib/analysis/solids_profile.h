@@ -6,6 +6,7 @@
 
 #include "analysis/frames.h"
 #include "analysis/parameters.h"
+#include "model/layer_measures.h"
 
 namespace pigment::analysis {
 
@@ -33,7 +34,10 @@ struct SolidsProfile {
   double thickness = 0;             // um, substrate to surface
   double mean_volume_fraction = 0;  // all solids over the layer's volume
   double mean_mass_fraction = 0;    // all solids, liquid: the layer's volume less the solids
+  double shrinkage = 0;             // share of the first frame's thickness that is gone
+  double porosity = 0;              // share of the space between substrate and surface that is not solid
   double mass_centre = 0, z95 = 0, z99 = 0, top_envelope = 0;  // um
+  std::vector<double> top_height;  // um, top of each column (model/layer_measures.h); top_envelope is its mean
   double protruding_fraction = 0;                              // share of the solid volume above the surface
   double cake_thickness = 0, skin_thickness = 0;               // um, see dense_thickness
 };
@@ -62,7 +66,8 @@ struct Solids {
   double liquid_density = 1e-3;  // engine units
 };
 
-SolidsProfile profile_solids(const Snapshot&, const Solids&, const Parameters&);
+// Tops of columns of the grid; without one of the frame's own.
+SolidsProfile profile_solids(const Snapshot&, const Solids&, const Parameters&, ColumnGrid = {});
 SolidsDevelopment follow_solids(const Frames&, const Solids&, const Parameters&);
 
 // Height above the first edge up to which slices hold at least `threshold`: a run of such slices that begins within

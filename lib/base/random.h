@@ -14,6 +14,7 @@ enum class Stream : std::uint64_t {
   BrownianForce = 4,
   Calibration = 5,
   Tests = 6,
+  PorePoints = 7,
 };
 
 struct RandomKey {

@@ -17,6 +17,7 @@ constexpr DimensionInfo table[] = {
     {Dimension::Number, "number", "1", 1, "0.5"},
     {Dimension::Length, "length", "m", 1e6, "5 nm"},
     {Dimension::Area, "area", "m2", 1e12, "1e-18 m2"},
+    {Dimension::Volume, "volume", "m3", 1e18, "1 um3"},
     {Dimension::Time, "time", "s", 1e3, "0.5 s"},
     {Dimension::Temperature, "temperature", "K", 1, "25 degC"},
     {Dimension::Mass, "mass", "kg", 1e12, "1 pg"},

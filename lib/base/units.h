@@ -13,6 +13,7 @@ enum class Dimension {
   Number,            // dimensionless
   Length,            // m
   Area,              // m2 (permeability)
+  Volume,            // m3
   Time,              // s
   Temperature,       // K
   Mass,              // kg

@@ -28,6 +28,7 @@ const std::vector<Door> doors = {
     {"Random123/", {"base"}, true},
     {"udunits2", {"base"}, true},
     {"gsl/", {"model", "forces", "packing", "analysis"}, true},
+    {"voro++/", {"analysis"}, true},
     {"png", {"report"}, true},
     {"zlib", {"report"}, true},
 };
