@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench speed studies install clean format help dependencies configure FORCE
+.PHONY: all build test bench speed studies claims install clean format help dependencies configure FORCE
 
 all: study-drying
 	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
@@ -24,7 +24,8 @@ help:
 	@echo 'make speed           build, measure wall time against error'
 	@echo 'make study-NAME      run one study; SIZE=quick or SIZE=full, -j N, LAUNCH="srun -n1"'
 	@echo '                     studies: $(STUDIES)'
-	@echo 'make studies         run all of them'
+	@echo 'make studies         run all of them; one report of their claims and figures: $(BUILD)/studies/report.html'
+	@echo 'make claims          write docs/claims.md from the studies that have been run'
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
 	@echo 'make format          clang-format over lib, tools and tests'
@@ -62,7 +63,17 @@ install: build
 # Results live in $(BUILD)/studies/STUDY/CASE; workflows/rules.mk says how each file is made.
 STUDY_OPTIONS = --no-print-directory -C workflows/$(1) BUILD='$(abspath $(BUILD))'
 
+# One page of what all studies found, as far as they have claims.
 studies: $(STUDIES:%=study-%)
+	@shopt -s nullglob; found=(); \
+	for study in $(patsubst workflows/%/claims.py,$(BUILD)/studies/%,$(wildcard workflows/*/claims.py)); do \
+	  found+=(--claims $$study/claims.csv); for figure in $$study/figures/*.svg; do found+=(--figure $$figure); done; done; \
+	set -x; $(BUILD)/bin/pigment-report "$${found[@]}" --title Studies -o $(BUILD)/studies/report.html
+	@echo 'The report of all studies: $(BUILD)/studies/report.html'
+
+claims:
+	workflows/replace_if_changed.sh docs/claims.md /usr/bin/python3 workflows/claims_page.py '$(BUILD)/studies' $(STUDIES)
+
 .PHONY: $(STUDIES:%=study-%)
 $(STUDIES:%=study-%): study-%: build
 	$(MAKE) $(call STUDY_OPTIONS,$*)

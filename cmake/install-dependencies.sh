@@ -23,7 +23,9 @@ packages=(
   "libssl-dev        SHA-256 of input files (OpenSSL)"
   "libgtest-dev      unit tests (GoogleTest)"
   "libbenchmark-dev  benchmarks (Google Benchmark)"
-  "python3-h5py      tests: reads and writes HDF5 without our own code"
+  "python3-h5py      tests and studies: reads and writes HDF5 without our own code"
+  "python3-scipy     studies: statistical tests, integrals, ordinary differential equations"
+  "python3-matplotlib  studies: figures fit for a paper"
 )
 
 if [[ ${1:-} == --list ]]; then

@@ -4,9 +4,16 @@
 #   STUDY         its name
 #   CASES         its cases; the results of one stand in $(BUILD)/studies/$(STUDY)/CASE
 #   set-CASE      what the case changes in the scene, --set KEY.PATH=VALUE ...; may be absent
+#   scene-CASE    its scene where it is not scene.yaml; may be absent
 #   without-CASE  files of the chain that its scene has no block for: kbrown, dewatering; may be absent
-# Each case gets scene.yaml (all defaults filled in), packing.h5, kbrown.h5, dewatering.h5, trajectory.h5, solids.h5,
-# cluster.h5, separation.h5, mobility.h5; the study gets report.html. From the command line:
+#   FILES         what each case gets; absent: packing kbrown dewatering trajectory solids cluster separation mobility;
+#                 interactions is the other there is
+#   EXTRA, USES   further files of the study (below its results) that its Makefile has rules for, and the tools they need
+#                 beyond those of the chain: a rule depends on $(call tool,NAME) and runs $(BIN)/pigment-NAME
+#   FIGURES       figures that claims.py draws, figures/NAME.svg
+#   REPORT_CASES  cases whose runs the report shows in full; absent: all
+# Each case gets scene.yaml (all defaults filled in) and FILE.h5 for each of FILES; the study gets claims.csv and its figures
+# where its folder has a claims.py (docs/making-a-study.md), and report.html. From the command line:
 #   SIZE=quick|full    for the study's Makefile to read
 #   LAUNCH="srun -n1"  stands before every heavy stage, to spread a study over a cluster
 #   -j N               runs N stages at once, one thread each
@@ -39,10 +46,14 @@ SCENE ?= scene.yaml
 RESULTS := $(BUILD)/studies/$(STUDY)
 SUMS := $(BUILD)/studies/.tools
 
-ANALYSES := solids cluster separation mobility
-SLICES := pack kbrown dewater consolidate $(ANALYSES)
-TOOLS := scene $(SLICES) report
-FILES := packing kbrown dewatering trajectory $(ANALYSES)
+FILES ?= packing kbrown dewatering trajectory solids cluster separation mobility
+ANALYSES := $(filter solids cluster separation mobility,$(FILES))
+# The stage that makes a file, which is as well the name of its tool and of its slice of the scene.
+stage_of = $(patsubst packing,pack,$(patsubst dewatering,dewater,$(patsubst trajectory,consolidate,$(1))))
+SLICES := $(call stage_of,$(FILES))
+TOOLS := $(sort scene $(SLICES) $(USES) report)
+REPORT_CASES ?= $(CASES)
+scene_of = $(or $(scene-$(1)),$(SCENE))
 
 files_of = $(filter-out $(without-$(1)),$(FILES))
 has = $(filter $(1),$(call files_of,$(2)))
@@ -62,7 +73,7 @@ look_again =
 study: $(RESULTS)/report.html
 
 # ---- looking ahead, under make -n only; nothing is written
-slice = $(BIN)/pigment-scene $(SCENE) $(set-$(1)) --for $(2) --folder $(RESULTS)/$(1)/.made
+slice = $(BIN)/pigment-scene $(call scene_of,$(1)) $(set-$(1)) --for $(2) --folder $(RESULTS)/$(1)/.made
 ifneq ($(DRY),)
   # $(call if_new,COMMAND,FILE): FILE, where it is there and COMMAND would write something else.
   if_new = [ ! -e $(2) ] || $(1) 2> /dev/null | cmp -s - $(2) || echo $(2);
@@ -91,13 +102,13 @@ $(TOOLS:%=$(SUMS)/%.seen): $(SUMS)/%.seen: $(BIN)/pigment-% $$(call gone,$$(call
 $(call as_it_is,$(TOOLS:%=$(SUMS)/%.sum)): %.sum: %.seen ; +$(look_again)
 
 # ---- scene: the case's scene with its defaults, and a slice of it for each stage
-settings = $(SCENE) $(subst ",,$(subst ',,$(set-$(1))))
+settings = $(call scene_of,$(1)) $(subst ",,$(subst ',,$(set-$(1))))
 differ = $(subst x$(strip $(1)),,x$(strip $(2)))$(subst x$(strip $(2)),,x$(strip $(1)))
 other = $(if $(call differ,$(1),$(file < $(2))),FORCE)
-$(CASES:%=$(RESULTS)/%/.made/scene.seen): $(RESULTS)/%/.made/scene.seen: $(SCENE) $(call tool,scene) \
+$(CASES:%=$(RESULTS)/%/.made/scene.seen): $(RESULTS)/%/.made/scene.seen: $$(call scene_of,$$*) $(call tool,scene) \
     $$(call other,$$(call settings,$$*),$$(@D)/settings) $$(foreach s,$$(SLICES),$$(call gone,$$(@D)/$$s.yaml))
 	@mkdir -p $(@D)
-	$(replace_if_changed) $(RESULTS)/$*/scene.yaml $(BIN)/pigment-scene $(SCENE) $(set-$*)
+	$(replace_if_changed) $(RESULTS)/$*/scene.yaml $(BIN)/pigment-scene $(call scene_of,$*) $(set-$*)
 	@for stage in $(SLICES); do $(replace_if_changed) $(@D)/$$stage.yaml $(call slice,$*,$$stage); done
 	@echo '$(call settings,$*)' > $(@D)/settings
 	@touch $@
@@ -120,19 +131,40 @@ $(call each,trajectory,h5): $(RESULTS)/%/trajectory.h5: $(RESULTS)/%/.made/conso
     $$(foreach f,$$(call starts,$$*),$$(@D)/.made/$$f.sum)
 	$(LAUNCH) $(BIN)/pigment-consolidate $< $(foreach f,$(call starts,$*),--$f $(@D)/$f.h5) -o $@$(threads)
 
+$(call each,interactions,h5): $(RESULTS)/%/interactions.h5: $(RESULTS)/%/.made/interactions.yaml $(call tool,interactions)
+	$(BIN)/pigment-interactions $< -o $@
+
 define analysis
 $(call each,$(1),h5): $(RESULTS)/%/$(1).h5: $(RESULTS)/%/.made/$(1).yaml $(RESULTS)/%/.made/trajectory.sum $(call tool,$(1))
 	$$(LAUNCH) $(BIN)/pigment-$(1) $$(@D)/trajectory.h5 --scene $$< -o $$@
 endef
 $(foreach a,$(ANALYSES),$(eval $(call analysis,$a)))
 
-$(RESULTS)/report.html: $(foreach f,$(FILES),$(call made,$f,sum)) $(call tool,report)
-	$(BIN)/pigment-report $(foreach c,$(CASES),$(addprefix $(RESULTS)/$c/,$(addsuffix .h5,$(call files_of,$c)))) -o $@$(threads)
+# ---- claims, figures, report: made anew as well when the cases or SIZE change, which no file's time says
+sums_of_results := $(foreach f,$(FILES),$(call made,$f,sum))
+ifneq ($(wildcard claims.py),)
+JUDGED := $(RESULTS)/claims.csv $(FIGURES:%=$(RESULTS)/figures/%.svg)
+# claims.py puts all of them in place at its end, or none: where it fails, what stood stays.
+.PRECIOUS: $(JUDGED)
+judged_with := $(SIZE) $(CASES) / $(FIGURES)
+$(JUDGED) &: $(wildcard *.py) $(WORKFLOWS)/study.py $(sums_of_results) $(EXTRA:%=$(RESULTS)/%) \
+    $(call other,$(judged_with),$(RESULTS)/.made/claims.settings)
+	@mkdir -p $(RESULTS)/.made
+	PYTHONPATH='$(WORKFLOWS)' PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 claims.py --results '$(RESULTS)' --size $(SIZE) --cases '$(CASES)' --figures '$(FIGURES)'
+	@echo '$(judged_with)' > $(RESULTS)/.made/claims.settings
+endif
+
+files_shown = $(foreach c,$(REPORT_CASES),$(addprefix $(RESULTS)/$c/,$(addsuffix .h5,$(filter-out interactions,$(call files_of,$c)))))
+$(RESULTS)/report.html: $(sums_of_results) $(JUDGED) $(call tool,report) $(call other,$(files_shown),$(RESULTS)/.made/report.settings)
+	@mkdir -p $(RESULTS)/.made
+	$(BIN)/pigment-report $(files_shown) $(addprefix --claims ,$(filter %.csv,$(JUDGED))) $(addprefix --figure ,$(filter %.svg,$(JUDGED))) --title 'Study: $(STUDY)' -o $@$(threads)
+	@echo '$(files_shown)' > $(RESULTS)/.made/report.settings
 
 # ---- checksums of results
 from-packing := pack.yaml
 from-kbrown := kbrown.yaml
 from-dewatering := dewater.yaml
+from-interactions := interactions.yaml
 from-trajectory = consolidate.yaml $(addsuffix .sum,$(call starts,$(1)))
 $(foreach a,$(ANALYSES),$(eval from-$a := $a.yaml trajectory.sum))
 define checksums

@@ -65,19 +65,30 @@ void CommandLine::positional(const std::string& name, path& variable, const std:
   data->inputs.push_back(&variable);
 }
 
-void CommandLine::positional(const std::string& name, std::vector<path>& variable, const std::string& help) {
+void CommandLine::positional(const std::string& name, std::vector<path>& variable, const std::string& help, bool required) {
   data->app
       .add_option_function<std::vector<std::string>>(
           name, [&variable](const std::vector<std::string>& texts) { variable.assign(texts.begin(), texts.end()); },
           help)
       ->type_name("FILE")
-      ->required();
+      ->required(required);
   data->input_lists.push_back(&variable);
 }
 
 void CommandLine::option(const std::string& flags, path& variable, const std::string& help, bool required) {
   data->add_path(flags, variable, help)->required(required);
   data->inputs.push_back(&variable);
+}
+
+void CommandLine::option(const std::string& flags, std::vector<path>& variable, const std::string& help) {
+  data->app
+      .add_option_function<std::vector<std::string>>(
+          flags, [&variable](const std::vector<std::string>& texts) { variable.assign(texts.begin(), texts.end()); }, help)
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+  data->input_lists.push_back(&variable);
 }
 
 void CommandLine::option(const std::string& flags, std::string& variable, const std::string& help) {

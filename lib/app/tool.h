@@ -24,8 +24,9 @@ class CommandLine {
   void describe(const std::string& text, const std::string& example);  // synopsis and example for --help
   void references(const std::string& text);                             // literature, printed by --help
   void positional(const std::string& name, path& variable, const std::string& help, bool required = true);
-  void positional(const std::string& name, std::vector<path>& variable, const std::string& help);
+  void positional(const std::string& name, std::vector<path>& variable, const std::string& help, bool required = true);
   void option(const std::string& flags, path& variable, const std::string& help, bool required = false);
+  void option(const std::string& flags, std::vector<path>& variable, const std::string& help);  // repeatable
   void option(const std::string& flags, std::string& variable, const std::string& help);
   void option(const std::string& flags, std::vector<std::string>& variable, const std::string& help);  // repeatable
   void option(const std::string& flags, double& variable, const std::string& help);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pigment::report {
 namespace {
 
@@ -92,9 +94,18 @@ void HtmlReport::colours(const ColourLegend& legend) {
   body_ += "</div>\n";
 }
 
-void HtmlReport::table(const std::vector<std::string>& head,
-                       const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<div class=\"scroll\"><table>";
+void HtmlReport::figures(const std::vector<StudyFigure>& figures) {
+  body_ += "<div class=\"sheets\">\n";
+  for (const StudyFigure& f : figures)
+    body_ += fmt::format("<figure{2}><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
+                         html_escape(f.caption), f.data_uri, f.wide ? " class=\"wide\"" : "");
+  body_ += "</div>\n";
+}
+
+void HtmlReport::table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                       TableStyle style) {
+  const bool verdicts = style == TableStyle::VerdictFirst;
+  body_ += fmt::format("<div class=\"scroll\"><table{}>", verdicts ? " class=\"claims\"" : "");
   if (!head.empty()) {
     body_ += "<thead><tr>";
     for (const std::string& h : head) body_ += "<th>" + html_escape(h) + "</th>";
@@ -103,7 +114,16 @@ void HtmlReport::table(const std::vector<std::string>& head,
   body_ += "<tbody>\n";
   for (const auto& row : rows) {
     body_ += "<tr>";
-    for (const std::string& cell : row) body_ += "<td>" + html_escape(cell) + "</td>";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string cell = html_escape(row[i]);
+      if (verdicts && i == 0) {
+        std::string name = cell;
+        std::replace(name.begin(), name.end(), ' ', '-');
+        body_ += fmt::format("<td><span class=\"verdict {}\">{}</span></td>", name, cell);
+      } else {
+        body_ += "<td>" + cell + "</td>";
+      }
+    }
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table></div>\n";

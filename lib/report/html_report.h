@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/png_image.h"
+#include "report/study_files.h"
 #include "report/svg_plot.h"
 
 namespace pigment::report {
@@ -26,6 +27,9 @@ struct ColourLegend {
   std::vector<std::string> names;                      // of tints
 };
 
+// VerdictFirst: the first column holds verdicts, shown as coloured marks, and the others run over several lines.
+enum class TableStyle { Plain, VerdictFirst };
+
 class HtmlReport {
  public:
   explicit HtmlReport(std::string title, std::string subtitle = {});
@@ -36,7 +40,9 @@ class HtmlReport {
   void plots(const std::vector<Plot>&);  // side by side where there is room
   void images(const std::vector<CaptionedImage>&, const std::string& note = {});  // in one row
   void colours(const ColourLegend&);
-  void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
+  void figures(const std::vector<StudyFigure>&);  // drawn elsewhere; side by side where there is room
+  void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+             TableStyle = TableStyle::Plain);
   void folded(const std::string& summary, const std::string& preformatted);
   void remark(const std::string& text);  // set apart: what a reader must know
   bool empty() const { return sections_.empty(); }

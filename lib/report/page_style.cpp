@@ -77,6 +77,17 @@ svg .pick{stroke:var(--card);stroke-width:1.5}
 .colours .tint{display:inline-flex;align-items:center;gap:.4rem}
 .colours .tint i{width:.85rem;height:.85rem;border-radius:50%}
 .pictures figcaption{font-size:.88rem;color:var(--soft);margin-top:.4rem;text-align:center}
+.sheets{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:1.1rem;margin-top:1rem}
+.sheets img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--rule);border-radius:10px;padding:.5rem}
+.sheets .wide{grid-column:1/-1;max-width:980px}
+.sheets figcaption{max-width:100ch;font-size:.88rem;color:var(--soft);margin-top:.4rem}
+@media screen and (prefers-color-scheme:dark){.sheets img{filter:brightness(.93)}}
+.claims td{min-width:11ch;line-height:1.45}
+.claims td:nth-child(n+3){min-width:22ch}
+.verdict{white-space:nowrap;border-radius:6px;padding:.1rem .5rem;font-size:.82rem;font-weight:600;border:1px solid currentColor;color:var(--soft)}
+.verdict.reproduced{color:#2e7d4f}
+.verdict.not-reproduced{color:var(--mark)}
+@media screen and (prefers-color-scheme:dark){.verdict.reproduced{color:#7fcf9f}}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-size:.9rem;margin-top:.6rem;min-width:50%}
 th,td{text-align:left;padding:.35rem 1.1rem .35rem 0;border-bottom:1px solid var(--rule);vertical-align:top;font-variant-numeric:tabular-nums}

@@ -161,8 +161,8 @@ void add_overview(HtmlReport& page, const RunView& view) {
   }
 }
 
-HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& title,
-                          const PictureWishes& wishes) {
+HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::vector<StudyFiles>& studies,
+                          const std::string& title, const PictureWishes& wishes) {
   std::string subtitle;
   if (runs.size() == 1)
     if (const auto* file = runs.front().particles())
@@ -170,10 +170,18 @@ HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::string& 
                              file->frame_count() > 1 ? fmt::format(", {} frames", file->frame_count()) : "");
   if (runs.size() > 1) subtitle = fmt::format("{} runs", runs.size());
   HtmlReport page(title, subtitle);
+  const bool chapters = runs.size() + studies.size() > 1;
+  for (const StudyFiles& study : studies) {
+    if (chapters) page.chapter(studies.size() > 1 ? study.name : "Findings");
+    add_study(page, study);
+  }
   const std::vector<RunView> views(runs.begin(), runs.end());
-  if (runs.size() > 1) add_comparison(page, views);
+  if (runs.size() > 1) {
+    if (!studies.empty()) page.chapter("Runs");
+    add_comparison(page, views);
+  }
   for (const RunView& view : views) {
-    if (runs.size() > 1) page.chapter(view.files.name);
+    if (chapters) page.chapter(view.files.name);
     page.section("Summary");
     add_overview(page, view);
     add_pictures(page, view, wishes);

@@ -4,6 +4,7 @@
 
 #include "report/html_report.h"
 #include "report/run_files.h"
+#include "report/study_files.h"
 
 namespace pigment::report {
 
@@ -38,8 +39,10 @@ void add_mobility(HtmlReport&, const RunView&);
 void add_brownian_calibration(HtmlReport&, const RunView&);
 void add_numerics(HtmlReport&, const RunView&);  // step size, solver, contacts
 void add_provenance(HtmlReport&, const RunView&);
+void add_study(HtmlReport&, const StudyFiles&);  // claims and figures
 
-// The whole page.
-HtmlReport compose_report(const std::vector<RunFiles>&, const std::string& title, const PictureWishes&);
+// The whole page: what studies say, then the runs.
+HtmlReport compose_report(const std::vector<RunFiles>&, const std::vector<StudyFiles>&, const std::string& title,
+                          const PictureWishes&);
 
 }  // namespace pigment::report
