@@ -45,9 +45,9 @@ void declare(app::CommandLine& line) {
   line.has_threads();
 }
 
-std::vector<io::ObservableInfo> observables() {
+std::vector<io::ObservableInfo> observables(const assembly::Interactions& interactions) {
   std::vector<io::ObservableInfo> infos;
-  for (const auto& o : stepping::observable_names()) infos.push_back({o.name, o.dimension});
+  for (const auto& o : stepping::observable_names(interactions)) infos.push_back({o.name, o.dimension});
   return infos;
 }
 
@@ -93,7 +93,7 @@ void run(app::CommandLine& line) {
   }
   Layer fixed = first;
   fixed.particles = problem.particles;
-  io::TrajectoryWriter writer(line.common.output, fixed, packing.species_names(), observables(), provenance,
+  io::TrajectoryWriter writer(line.common.output, fixed, packing.species_names(), observables(problem.interactions), provenance,
                               static_cast<std::size_t>(state.frame));
   app::handle_signals();
 

@@ -21,6 +21,7 @@ struct Interactions {
   std::vector<double> surface_potential;  // mV, by species
 
   bool lubrication() const { return hydrodynamics.model != resistance::HydrodynamicsParameters::Model::Drag; }
+  bool hindered() const { return hydrodynamics.drag == resistance::HydrodynamicsParameters::Drag::Hindered; }
   // Rotation is worth solving for only where something couples to it.
   bool rotation() const { return hydrodynamics.rotation && lubrication(); }
 };

@@ -51,13 +51,13 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
   const int D = system.unknowns_per_particle();
   const double mu = liquid_.viscosity, dt = implicit_ ? dt_ : 0;
   for (int k = topology_.chunks().begin[chunk]; k < topology_.chunks().begin[chunk + 1]; ++k) {
-    const double a = radius_[k], drag = mu * resistance::stokes_drag(a);
+    const double a = radius_[k], drag = flow_ ? flow_->drag(k) : mu * resistance::stokes_drag(a);
     solve::ParticleTerm t{drag, drag, 0, mu * resistance::stokes_torque(a), mu * resistance::stokes_torque(a)};
     double* f = rhs + static_cast<std::size_t>(k) * D;
     for (int d = 0; d < D; ++d) f[d] = 0;
     if (!external_force_.empty())
       for (int d = 0; d < 3; ++d) f[d] += external_force_[k][d];
-    f[2] -= drag * film_.absorption;  // (10): relative to the liquid, which moves with -q e_z
+    f[2] += flow_ ? flow_->force(k) : -drag * film_.absorption;  // (10): relative to the liquid, which moves with -q e_z
     if (interactions_.gravity)
       f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
     if (interactions_.substrate) {
@@ -107,8 +107,10 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
   const std::size_t D = interactions_.rotation() ? 6 : 3;
   const double mu = liquid_.viscosity;
   BoundaryPressures total;
+  for (const SliceState& slice : slice_states(u)) total.liquid += slice.pressure_drop * cell_.area();
   for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
     const double uz = u[k * D + 2];
+    if (!flow_) total.liquid -= mu * resistance::stokes_drag(radius_[k]) * (uz + film_.absorption);
     if (interactions_.free_surface) {
       const SurfaceState s = surface_state(k);
       const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
@@ -127,7 +129,13 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
   }
   total.surface /= cell_.area();
   total.substrate /= cell_.area();
+  total.liquid /= cell_.area();
   return total;
+}
+
+std::vector<SliceState> StepAssembly::slice_states(const std::vector<double>& u) const {
+  if (!flow_) return {};
+  return flow_->states(u, interactions_.rotation() ? 6 : 3);
 }
 
 std::vector<double> StepAssembly::protrusions() const {

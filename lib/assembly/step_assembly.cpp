@@ -62,6 +62,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
       substrate_geometry_[k] = {0, radius_[k], std::numeric_limits<double>::infinity(), potential[k],
                                 interactions.substrate->surface_potential.value_or(potential[k])};
   }
+  if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height);
   normal_.resize(pairs_.size());
   gap_begin_.resize(pairs_.size());
   scalars_.resize(pairs_.size());
@@ -99,6 +100,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     if (interactions_.free_surface) protrusion_guess_[k] = protrusion[order_[k]];
     if (interactions_.substrate) substrate_geometry_[k].gap = position_[k].z() - radius_[k];
   }
+  if (flow_) flow_->place(position_, interactions_.free_surface ? film.height_begin : 0, liquid.viscosity, film.absorption);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c)
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
@@ -160,6 +162,7 @@ void StepAssembly::build(solve::PairSystem& system) const {
   system.rotation = interactions_.rotation();
   system.topology = &topology_;
   system.particle.resize(n);
+  if (flow_) system.mean_flow = flow_->term();
   system.full.resize(chunks);
   system.squeeze.resize(chunks);
   const std::size_t D = system.unknowns_per_particle();

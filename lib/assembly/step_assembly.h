@@ -7,9 +7,11 @@
 // releases particles, is solved again with the gaps that came out (refine). The averaged resistance diverges as h* -> 0, so
 // that no gap crosses zero.
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "assembly/interactions.h"
+#include "assembly/slice_flow.h"
 #include "model/particles.h"
 #include "neighbours/neighbour_list.h"
 #include "solve/pair_system.h"
@@ -27,6 +29,7 @@ struct Film {
 struct BoundaryPressures {
   double surface = 0;    // what the free surface presses with: spring and hydrodynamic
   double substrate = 0;  // what the substrate carries: colloidal and hydrodynamic
+  double liquid = 0;     // of the liquid at the bottom over that at the top: the drag on all particles
   int contacts = 0;      // particles held by the surface
 };
 
@@ -59,6 +62,8 @@ class StepAssembly {
   BoundaryPressures boundary_pressures(const std::vector<double>& solution) const;
   // Protrusion of every particle at the end of the step for the accepted solution, file order: next step's guess.
   std::vector<double> protrusions() const;
+  // The liquid's slices, from below, for a solution; none without hindered drag.
+  std::vector<SliceState> slice_states(const std::vector<double>& solution) const;
   const neighbours::IndexPair& pair(std::size_t p) const { return pairs_[p]; }  // engine indices
   double pair_force(std::size_t p) const;  // colloidal, at the current guess
 
@@ -92,6 +97,7 @@ class StepAssembly {
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
   double prepared_temperature_ = -1;
   std::vector<Vec3> position_, external_force_;
+  std::optional<SliceFlow> flow_;
   std::vector<Vec3> normal_;               // one a pair
   std::vector<double> gap_begin_;          // one a pair
   // What each particle is to the surface: free (0), held exactly (`held`), or lifted on the spring by so much, um; and how it

@@ -164,9 +164,10 @@ void add_development(HtmlReport& page, const RunView& view) {
     centre.note = "From the marked time on the particles move with the shrinking layer only.";
   keep(plots, centre);
 
-  Plot pressure = in_time(view, "Pressure on surface and substrate", "force per area", "Pa");
+  Plot pressure = in_time(view, "Pressure", "force per area", "Pa");
   add_observable(pressure, view, "surface_pressure", "free surface", 1);
   add_observable(pressure, view, "substrate_pressure", "substrate", 1);
+  add_observable(pressure, view, "liquid_pressure", "liquid at the substrate", 1);
   if (largest(pressure) >= 2000) {
     pressure.y.unit = "kPa";
     for (Series& s : pressure.series) s.y = scaled(s.y, 1e-3);

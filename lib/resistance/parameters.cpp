@@ -6,9 +6,8 @@ HydrodynamicsParameters read_hydrodynamics(config::Node node) {
   HydrodynamicsParameters p;
   using Model = HydrodynamicsParameters::Model;
   p.model = node.choice<Model>("model", {{"exact", Model::Exact}, {"thesis", Model::Thesis}, {"drag", Model::Drag}}, "exact");
-  enum class Drag { Stokes, Hindered };
-  if (node.choice<Drag>("drag", {{"stokes", Drag::Stokes}, {"hindered", Drag::Hindered}}, "stokes") == Drag::Hindered)
-    node.error("drag", "\"hindered\" is not available in this version; use stokes");
+  using Drag = HydrodynamicsParameters::Drag;
+  p.drag = node.choice<Drag>("drag", {{"stokes", Drag::Stokes}, {"hindered", Drag::Hindered}}, "stokes");
   p.rotation = node.boolean("rotation", true);
   // A number: where squeeze lubrication ends, in smaller radii; the shear block keeps its share of it.
   if (node.is_word("cutoff", "auto") || !node.has("cutoff")) {

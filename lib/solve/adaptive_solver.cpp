@@ -11,6 +11,8 @@ namespace {
 // A factorisation costs about as much as 400 block-Jacobi iterations at a few thousand particles, a solve with the factor as
 // much as 20: so much is lost at worst before the factor is tried, and before it is made anew.
 constexpr int patience = 300, refactor = 15;
+// The factor leaves the mean flow out, whose share of the spectrum, between one and 1/(1 - phi)^2, takes some 20 iterations.
+constexpr int refactor_beside_mean_flow = 60;
 // Beyond this many unknowns the factor's fill outgrows memory and its time that of any number of iterations.
 constexpr std::size_t most_unknowns = 150000;
 
@@ -69,7 +71,8 @@ void AdaptiveSolver::restore_factor(const std::vector<std::int64_t>& packed, con
 SolveReport AdaptiveSolver::solve(const PairSystem& system, std::vector<double>& x, const ConjugateGradientOptions& options) {
   const bool small = system.right_hand_side.size() <= most_unknowns;
   ConjugateGradientOptions limited = options;
-  limited.max_iterations = !small ? options.max_iterations : std::min(options.max_iterations, factor_.ready() ? refactor : patience);
+  const int again = system.mean_flow.empty() ? refactor : refactor_beside_mean_flow;
+  limited.max_iterations = !small ? options.max_iterations : std::min(options.max_iterations, factor_.ready() ? again : patience);
   SolveReport report = conjugate_gradients(system, x, limited, factor_.ready() ? &factor_ : nullptr);
   if (report.converged || !small) return report;
   const int before = report.iterations;

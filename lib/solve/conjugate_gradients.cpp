@@ -74,6 +74,8 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
   const BlockJacobi<D> preconditioner(system);
   std::vector<double> r(size), z(size), p(size), ap((n + topology.halo_count()) * D);
   std::vector<double> scale(held ? ap.size() : 0);
+  const bool flows = !system.mean_flow.empty();
+  MeanFlowSums sums(system.mean_flow, count);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count);
   SolveReport report;
   double rz = 0, bb = 0, target = 0;
@@ -82,15 +84,23 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
   {
     if (guess) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, x.data(), ap.data());
+      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, x.data(), ap.data(), sums);
+      if (flows) {
+#pragma omp single
+        sums.combine();
+      }
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, ap.data());
+      for (int c = 0; c < count; ++c) gather_chunk<D>(system, c, ap.data(), sums);
     }
     if (held) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, given.data(), scale.data());
+      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, given.data(), scale.data(), sums);
+      if (flows) {
+#pragma omp single
+        sums.combine();
+      }
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, scale.data());
+      for (int c = 0; c < count; ++c) gather_chunk<D>(system, c, scale.data(), sums);
     }
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) {
@@ -123,10 +133,14 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
     }
     while (!done) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, p.data(), ap.data());
+      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, p.data(), ap.data(), sums);
+      if (flows) {
+#pragma omp single
+        sums.combine();
+      }
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) {
-        gather_halo<D>(topology, c, ap.data());
+        gather_chunk<D>(system, c, ap.data(), sums);
         mask_held<D>(system, c, ap.data());
         double own = 0;
         for (int q = topology.chunks().begin[c] * D; q < topology.chunks().begin[c + 1] * D; ++q) own += p[q] * ap[q];

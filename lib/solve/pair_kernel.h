@@ -77,9 +77,10 @@ inline void add_full_pair(const FullPair& p, const double* xi, const double* xj,
   }
 }
 
-// What one chunk adds: its own rows of y (set, then summed) and its halo slots. y holds N particles and then the halo.
+// What one chunk adds: its own rows of y (set, then summed), its halo slots and its share of the slices' sums. y holds N
+// particles and then the halo.
 template <int D>
-inline void apply_chunk(const PairSystem& system, int chunk, const double* x, double* y) {
+inline void apply_chunk(const PairSystem& system, int chunk, const double* x, double* y, MeanFlowSums& sums) {
   const PairTopology& topology = *system.topology;
   const int begin = topology.chunks().begin[chunk], end = topology.chunks().begin[chunk + 1];
   for (int k = begin; k < end; ++k) add_particle<D>(system.particle[k], x + k * D, y + k * D);
@@ -89,6 +90,7 @@ inline void apply_chunk(const PairSystem& system, int chunk, const double* x, do
     add_full_pair<D>(p, x + p.i * D, x + p.j * D, y + p.i * D, y + static_cast<std::size_t>(p.target) * D);
   for (const SqueezePair& p : system.squeeze[chunk])
     add_squeeze_pair<D>(p, x + p.i * D, x + p.j * D, y + p.i * D, y + static_cast<std::size_t>(p.target) * D);
+  if (!system.mean_flow.empty()) sum_mean_flow<D>(system.mean_flow, chunk, begin, end, x, sums);
 }
 
 // Takes the given velocities out of a residual or a search direction.
@@ -99,12 +101,16 @@ inline void mask_held(const PairSystem& system, int chunk, double* y) {
     if (system.held[k]) y[k * D + 2] = 0;
 }
 
+// Finishes the rows of one chunk after apply_chunk of all, and after sums.combine() where there is a mean flow.
 template <int D>
-inline void gather_halo(const PairTopology& topology, int chunk, double* y) {
+inline void gather_chunk(const PairSystem& system, int chunk, double* y, const MeanFlowSums& sums) {
+  const PairTopology& topology = *system.topology;
   const std::size_t n = topology.particles();
-  for (int k = topology.chunks().begin[chunk]; k < topology.chunks().begin[chunk + 1]; ++k)
+  const int begin = topology.chunks().begin[chunk], end = topology.chunks().begin[chunk + 1];
+  for (int k = begin; k < end; ++k)
     for (const std::int32_t* slot = topology.slots_begin(k); slot != topology.slots_end(k); ++slot)
       for (int d = 0; d < D; ++d) y[k * D + d] += y[(n + *slot) * D + d];
+  if (!system.mean_flow.empty()) add_mean_flow<D>(system.mean_flow, begin, end, sums, y);
 }
 
 }  // namespace pigment::solve

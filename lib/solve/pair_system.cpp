@@ -52,12 +52,17 @@ void apply_all(const PairSystem& system, const std::vector<double>& x, std::vect
   const PairTopology& topology = *system.topology;
   const int count = topology.chunks().count();
   std::vector<double> sum((topology.particles() + topology.halo_count()) * D);
+  MeanFlowSums sums(system.mean_flow, count);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, x.data(), sum.data());
+    for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, x.data(), sum.data(), sums);
+    if (!system.mean_flow.empty()) {
+#pragma omp single
+      sums.combine();
+    }
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) gather_halo<D>(topology, c, sum.data());
+    for (int c = 0; c < count; ++c) gather_chunk<D>(system, c, sum.data(), sums);
   }
   y.assign(sum.begin(), sum.begin() + topology.particles() * D);
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "solve/chunks.h"
+#include "solve/mean_flow.h"
 
 namespace pigment::solve {
 
@@ -63,6 +64,7 @@ struct PairSystem {
   // One array a chunk, so that chunks fill and read theirs independently.
   std::vector<std::vector<FullPair>> full;
   std::vector<std::vector<SqueezePair>> squeeze;
+  MeanFlow mean_flow;                   // empty: none
   std::vector<double> right_hand_side;  // D a particle
   // Particles whose velocity along z is given (held by the free surface), not solved for: 1 a particle, empty: none; and the
   // velocities. The force that holds one is what its row leaves: b - A x.
@@ -74,7 +76,7 @@ struct PairSystem {
 
 // y = A x; vectors of D entries a particle.
 void apply(const PairSystem&, const std::vector<double>& x, std::vector<double>& y);
-// Dense D x D diagonal block of every particle, row-major, D*D entries a particle.
+// Dense D x D diagonal block of every particle, row-major, D*D entries a particle; without the mean flow's.
 std::vector<double> diagonal_blocks(const PairSystem&);
 
 }  // namespace pigment::solve

@@ -13,7 +13,7 @@ namespace pigment::stepping {
 namespace {
 
 // What accumulates between two frames; kept in RunState::interval, so that a resumed run has it.
-enum Sum { Steps, Iterations, Duration, SurfaceImpulse, SubstrateImpulse, SmallestGap, Contacts, SumCount };
+enum Sum { Steps, Iterations, Duration, SurfaceImpulse, SubstrateImpulse, SmallestGap, Contacts, LiquidImpulse, SumCount };
 
 std::vector<double> empty_interval() {
   std::vector<double> interval(SumCount, 0.0);
@@ -27,6 +27,7 @@ void add_step(std::vector<double>& interval, const StepReport& report) {
   interval[Duration] += report.step;
   interval[SurfaceImpulse] += report.step * report.pressures.surface;
   interval[SubstrateImpulse] += report.step * report.pressures.substrate;
+  interval[LiquidImpulse] += report.step * report.pressures.liquid;
   interval[SmallestGap] = std::min(interval[SmallestGap], report.smallest_gap);
   interval[Contacts] = report.pressures.contacts;
 }
@@ -63,7 +64,8 @@ std::vector<double> observe(const Problem& problem, const RunState& state, doubl
   // Below the surface; without one, below the top of the highest particle.
   const double liquid_volume = std::max(0.0, problem.cell.area() * thickness - solids_volume(radius));
   const bool stepped = sum[Steps] > 0;
-  return {thickness,
+  std::vector<double> observables = {
+          thickness,
           height_below_which(0.95, state.position, radius),
           height_below_which(0.99, state.position, radius),
           solid_mass / (solid_mass + problem.interactions.liquid.density * liquid_volume),
@@ -77,12 +79,14 @@ std::vector<double> observe(const Problem& problem, const RunState& state, doubl
           sum[Contacts],
           surface ? non_affine_rate(state, height) : 0.0,
           surface && state.frame > 0 ? redistribution_ratio(state.redistribution) : 1.0};
+  if (problem.interactions.hindered()) observables.push_back(stepped ? sum[LiquidImpulse] / sum[Duration] : 0.0);
+  return observables;
 }
 
 }  // namespace
 
-const std::vector<ObservableName>& observable_names() {
-  static const std::vector<ObservableName> names = {
+std::vector<ObservableName> observable_names(const assembly::Interactions& interactions) {
+  std::vector<ObservableName> names = {
       {Observable::Thickness, "thickness", Dimension::Length},
       {Observable::Z95, "z95", Dimension::Length},
       {Observable::Z99, "z99", Dimension::Length},
@@ -98,6 +102,7 @@ const std::vector<ObservableName>& observable_names() {
       {Observable::NonAffineRate, "non_affine_rate", Dimension::Number},
       {Observable::Redistribution, "redistribution", Dimension::Number},
   };
+  if (interactions.hindered()) names.push_back({Observable::LiquidPressure, "liquid_pressure", Dimension::Pressure});
   return names;
 }
 

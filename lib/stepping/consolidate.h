@@ -12,13 +12,14 @@ namespace pigment::stepping {
 enum class Observable {
   Thickness, Z95, Z99, SolidsMassFraction, MassCentre, SurfacePressure, SubstratePressure, ProtrudingFraction,
   MinimumGap, StepSize, SolverIterations, Contacts, NonAffineRate, Redistribution,
+  LiquidPressure,  // with hindered drag
 };
 struct ObservableName {
   Observable observable;
   const char* name;      // dataset below /observables
   Dimension dimension;
 };
-const std::vector<ObservableName>& observable_names();
+std::vector<ObservableName> observable_names(const assembly::Interactions&);
 
 struct RunSettings {
   double output_every = 5;  // ms

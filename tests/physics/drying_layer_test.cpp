@@ -54,6 +54,10 @@ SmallLayer small_layer(bool brownian) {
   return small;
 }
 
+void hinder(SmallLayer& small) {
+  small.problem.interactions.hydrodynamics.drag = resistance::HydrodynamicsParameters::Drag::Hindered;
+}
+
 struct Recorded {
   stepping::RunState state;
   std::vector<std::vector<double>> observables;
@@ -109,8 +113,9 @@ TEST(DryingLayer, ParticlesStayBetweenSubstrateAndSurfaceAndNeverOverlap) {
 }
 
 TEST(DryingLayer, SameBytesAtAnyThreadCountAndHoweverOftenInterrupted) {
-  for (bool brownian : {false, true}) {
-    const SmallLayer small = small_layer(brownian);
+  for (const char* scene : {"smooth", "brownian", "hindered"}) {
+    SmallLayer small = small_layer(scene == std::string("brownian"));
+    if (scene == std::string("hindered")) hinder(small);
     omp_set_num_threads(2);
     const Recorded whole = run(small);
     omp_set_num_threads(1);
@@ -142,4 +147,39 @@ TEST(DryingLayer, ForcesBalance) {
   drag /= small.problem.cell.area();
   EXPECT_NEAR(report.pressures.surface, report.pressures.substrate + drag, 1e-4 * report.pressures.surface);
   EXPECT_GT(report.pressures.surface, 0);
+}
+
+// Surface, substrate and the liquid that flows through carry what there is to carry: nothing. Absorption this time, and the
+// drag that grows with the solids. To the solver's tolerance.
+TEST(DryingLayer, ForcesBalanceWithTheLiquidsPressure) {
+  for (bool hindered : {false, true}) {
+    SmallLayer small = small_layer(false);
+    if (hindered) hinder(small);
+    small.problem.stepping.tolerance = 1e-3;
+    small.problem.stepping.solver_tolerance = 1e-9;
+    stepping::RunState state = stepping::initial_state(small.problem, small.position);
+    stepping::Stepper stepper(small.problem, state);
+    stepping::StepReport report;
+    while (state.time < 10) report = stepper.advance(state, 10 - state.time);
+    const assembly::BoundaryPressures& p = report.pressures;
+    EXPECT_NEAR(p.surface, p.substrate + p.liquid, 1e-6 * (std::abs(p.surface) + std::abs(p.liquid)));
+    EXPECT_GT(std::abs(p.liquid), 1e-3 * p.surface);
+  }
+}
+
+// Absorbed through solids that the substrate stops, the liquid sucks; where the surface presses the solids down through it, it
+// pushes.
+TEST(DryingLayer, RecordsTheLiquidsPressureWithHinderedDrag) {
+  SmallLayer small = small_layer(false);
+  hinder(small);
+  small.problem.dewatering.evaporation_flux = {0, 0, 0};
+  const auto names = stepping::observable_names(small.problem.interactions);
+  EXPECT_STREQ(names.back().name, "liquid_pressure");
+  const Recorded r = run(small);
+  for (const auto& values : r.observables) EXPECT_EQ(values.size(), names.size());
+  EXPECT_LT(r.observables.back().back(), 0);
+  small.problem.dewatering.evaporation_flux = small.problem.dewatering.absorption_flux;
+  small.problem.dewatering.absorption_flux = {0, 0, 0};
+  EXPECT_GT(run(small).observables.back().back(), 0);
+  EXPECT_EQ(stepping::observable_names(small_layer(false).problem.interactions).size(), names.size() - 1);
 }
