@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench speed studies claims install clean format help dependencies configure FORCE
+.PHONY: all build test bench speed studies claims install clean format page-libraries help dependencies configure FORCE
 
 all: study-drying
 	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
@@ -29,6 +29,7 @@ help:
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
 	@echo 'make format          clang-format over lib, tools and tests'
+	@echo 'make page-libraries  rebuild the JavaScript libraries inside the report from npm'
 	@echo 'make clean           remove $(BUILD), results of studies included'
 
 # ---- build
@@ -94,6 +95,10 @@ $(foreach f,$(filter $(BUILD)/studies/% $(abspath $(BUILD))/studies/%,$(MAKECMDG
 format:
 	@command -v clang-format > /dev/null || { echo 'make format needs clang-format: apt install clang-format' >&2; exit 1; }
 	clang-format -i $$(git ls-files 'lib/*.h' 'lib/*.cpp' 'tools/*.cpp' 'tests/*.h' 'tests/*.cpp')
+
+# The outside JavaScript that the report's page carries (THIRD-PARTY.md); needs Node.js, npm and a network.
+page-libraries:
+	cd lib/report/page && npm ci --no-audit --no-fund && npm run build
 
 clean:
 	rm -rf $(BUILD)

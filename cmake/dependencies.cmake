@@ -7,6 +7,7 @@ find_package(GSL REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(HDF5 1.10 REQUIRED COMPONENTS C)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # SHA-256 of input files
 
 # Libraries whose Debian packages ship no CMake package.

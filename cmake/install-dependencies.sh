@@ -20,6 +20,7 @@ packages=(
   "librandom123-dev  counter-based random numbers (Random123)"
   "voro++-dev        the space that belongs to each particle (Voro++)"
   "libpng-dev        pictures (PNG)"
+  "zlib1g-dev        packs the particles of the report's 3-D view (zlib)"
   "libssl-dev        SHA-256 of input files (OpenSSL)"
   "libgtest-dev      unit tests (GoogleTest)"
   "libbenchmark-dev  benchmarks (Google Benchmark)"

@@ -4,6 +4,7 @@
 #include "app/tool.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "report/picture_options.h"
 #include "report/sections.h"
 #include "report/whole_file.h"
 
@@ -14,6 +15,7 @@ using namespace pigment;
 struct Options {
   std::vector<app::path> files, claims, figures;
   std::string title, colour = "auto";
+  int viewer_frames = 100;
 };
 
 void declare(app::CommandLine& line, Options& o) {
@@ -33,6 +35,8 @@ void declare(app::CommandLine& line, Options& o) {
   line.option("--title", o.title, "heading of the page");
   line.option("--colour,--color", o.colour,
               "colours of the pictures: auto (species where there are several, else size), size, species");
+  line.option("--viewer-frames", o.viewer_frames,
+              "most frames of a run in the interactive 3-D view, evenly in time; 0: no such view");
   line.output_required(true, "the page (HTML)");
   line.has_threads();
 }
@@ -53,6 +57,7 @@ void run(const app::CommandLine& line, const Options& o) {
                                 : "Coating layers";
   report::PictureWishes wishes;
   wishes.colour = o.colour;
+  wishes.viewer_frames = report::whole_option("--viewer-frames", o.viewer_frames, 0, 10000);
   const std::string page = report::compose_report(runs, studies, title, wishes).page();
   report::write_whole_file(line.common.output, page);
   note(fmt::format("{}: {:.1f} MB", line.common.output.string(), 1e-6 * static_cast<double>(page.size())));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "report/page_assets.h"
+
 namespace pigment::report {
 namespace {
 
@@ -138,6 +140,14 @@ void HtmlReport::remark(const std::string& text) {
   body_ += "<p class=\"remark\">" + html_escape(text) + "</p>\n";
 }
 
+void HtmlReport::viewer(const std::string& json, const std::string& packed, const std::string& note) {
+  has_viewer_ = true;
+  body_ += "<figure class=\"viewer\" hidden><figcaption>The layer in three dimensions</figcaption>"
+           "<p class=\"viewer-missing\"></p><div class=\"viewer-body\"></div>"
+           "<p class=\"note\">" + html_escape(note) + "</p>\n";
+  body_ += "<script type=\"application/json\" class=\"layers\">" + json + "</script>\n" + packed + "</figure>\n";
+}
+
 std::string HtmlReport::page() const {
   std::string contents;
   for (const auto& [anchor, title] : chapters_.empty() ? sections_ : chapters_)
@@ -151,12 +161,20 @@ std::string HtmlReport::page() const {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
       "content=\"light dark\">\n";
   out += "<link rel=\"icon\" href=\"data:,\">\n<title>" + html_escape(title_) + "</title>\n<style>\n" +
-         palette_style() + page_style + "</style>\n</head>\n<body>\n";
+         palette_style() + page_style;
+  if (has_viewer_) out += page_viewer_css;
+  out += "</style>\n</head>\n<body>\n";
   out += "<header><h1>" + html_escape(title_) + "</h1>";
   if (!subtitle_.empty()) out += "<p>" + html_escape(subtitle_) + "</p>";
   out += "</header>\n<nav>" + contents + "</nav>\n<main>\n" + body_ + (open_ ? "</section>\n" : "") +
          "</main>\n";
-  return out + "<script>\n" + page_script + "</script>\n</body>\n</html>\n";
+  const auto script = [&out](std::string_view text) { ((out += "<script>\n") += text) += "</script>\n"; };
+  script(page_clock_js);
+  script(page_plots_js);
+  if (has_viewer_)
+    for (const auto text : {page_three_min_js, page_layer_data_js, page_layer_scene_js, page_viewer_colours_js, page_viewer_js})
+      script(text);
+  return out + "</body>\n</html>\n";
 }
 
 }  // namespace pigment::report

@@ -44,6 +44,9 @@ class HtmlReport {
   void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
              TableStyle = TableStyle::Plain);
   void folded(const std::string& summary, const std::string& preformatted);
+  // The interactive 3-D view (lib/report/page/viewer.js): colours and what is known of each run as JSON, the particles as
+  // <script> elements. One a page.
+  void viewer(const std::string& json, const std::string& packed, const std::string& note);
   void remark(const std::string& text);  // set apart: what a reader must know
   bool empty() const { return sections_.empty(); }
 
@@ -53,11 +56,10 @@ class HtmlReport {
   std::string title_, subtitle_, body_, footer_;
   std::vector<std::pair<std::string, std::string>> sections_, chapters_;  // anchor, title
   int plots_ = 0;
-  bool open_ = false;
+  bool open_ = false, has_viewer_ = false;
   void close_section();
 };
 
-extern const char* const page_style;   // CSS
-extern const char* const page_script;  // JavaScript
+extern const char* const page_style;  // CSS
 
 }  // namespace pigment::report

@@ -179,12 +179,14 @@ HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::vector<S
   if (runs.size() > 1) {
     if (!studies.empty()) page.chapter("Runs");
     add_comparison(page, views);
+    add_viewer(page, views, wishes);
   }
   for (const RunView& view : views) {
     if (chapters) page.chapter(view.files.name);
     page.section("Summary");
     add_overview(page, view);
     add_pictures(page, view, wishes);
+    if (runs.size() == 1) add_viewer(page, views, wishes);
     add_dewatering(page, view);
     add_development(page, view);
     add_profiles(page, view);

@@ -27,8 +27,10 @@ void add_overview(HtmlReport&, const RunView&);
 struct PictureWishes {
   std::string colour = "auto";  // auto: species where there are several, else size
   int width = 420, height = 900;
+  int viewer_frames = 100;  // most frames of a run in the 3-D viewer; 0: no viewer
 };
 void add_pictures(HtmlReport&, const RunView&, const PictureWishes&);
+void add_viewer(HtmlReport&, const std::vector<RunView>&, const PictureWishes&);  // interactive, all runs in one
 void add_packing(HtmlReport&, const RunView&);  // sizes, and how random the packing came out
 void add_dewatering(HtmlReport&, const RunView&);
 void add_development(HtmlReport&, const RunView&);  // thickness, solids, mass centre, pressures

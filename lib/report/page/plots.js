@@ -1,8 +1,4 @@
-#include "report/html_report.h"
-
-namespace pigment::report {
-
-const char* const page_script = R"js("use strict";
+"use strict";
 const sliders = [];
 for (const figure of document.querySelectorAll("figure.plot")) {
   const data = JSON.parse(figure.querySelector("script[type='application/json']").textContent);
@@ -129,6 +125,3 @@ for (const figure of document.querySelectorAll("figure.plot")) {
     show(key_place);
   });
 }
-)js";
-
-}  // namespace pigment::report
