@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "analysis/clusters.h"
+#include "analysis/local_solids.h"
 #include "app/tool.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -25,7 +26,8 @@ struct Options {
               threshold = "20 nm";
   int contact_sheet = 0, columns = 0, repeat = 1, samples = 3;
   double azimuth = 32, elevation = 24;
-  bool perspective = false, sawn = false, no_surface = false, no_substrate = false, bare = false;
+  int cluster_size = 0;
+  bool connections = false, perspective = false, sawn = false, no_surface = false, no_substrate = false, bare = false;
 };
 
 void declare(app::CommandLine& line, Options& o) {
@@ -42,12 +44,17 @@ void declare(app::CommandLine& line, Options& o) {
   line.option("--view", o.view, "side, top or oblique");
   line.option(
       "--colour,--color", o.colour,
-      "size, species, height, velocity (at that frame), global-velocity (over the whole run), cluster");
+      "size, species, height, velocity (at that frame), global-velocity (over the whole run), local-solids (how full "
+      "each particle's own space is), cluster (by its size), cluster-identity, or membership (in a cluster or alone)");
   line.option("--cut", o.cut,
               "takes away what lies in front of a plane: y=2.5um; or keeps one side: \"y>2.5um\"; several "
               "with commas");
   line.option("--threshold", o.threshold,
-              "clusters: particles whose surfaces are closer than this hang together");
+              "clusters and connections: particles whose surfaces are closer than this hang together");
+  line.option("--cluster-size", o.cluster_size,
+              "draws only particles in clusters of this many or more: 2 leaves out those that are alone");
+  line.flag("--connections", o.connections,
+            "in place of the particles the connections between them, red (near) to blue (at the threshold)");
   line.option("--size", o.size, "of a picture, in pixels: WIDTHxHEIGHT");
   line.option("--repeat", o.repeat, "periodic copies side by side");
   line.option("--samples", o.samples, "rays a pixel and direction, 1 to 8: smoothness of edges");
@@ -89,38 +96,69 @@ std::vector<double> global_speeds(const io::ParticleFile& file) {
   return speed;
 }
 
-// The frames' colours, on one scale for all but velocity, whose scale is each frame's own.
-std::vector<ParticleColours> colours_of(const io::ParticleFile& file, const std::vector<std::size_t>& frames,
-                                        const Options& o) {
-  const double highest = file.layer(0).cell.height;
-  const double threshold = report::quantity_option("--threshold", o.threshold, Dimension::Length);
-  std::vector<ParticleColours> all;
+double threshold_of(const Options& o) {
+  return report::quantity_option("--threshold", o.threshold, Dimension::Length);
+}
+
+analysis::Snapshot snapshot_of(const io::ParticleFile& file, std::size_t k) {
+  const Layer layer = file.layer(k);
+  return {file.times()[k], layer.cell, layer.position};
+}
+
+// How one frame is drawn.
+struct FrameLook {
+  ParticleColours colours;
+  std::vector<report::ParticleLink> links;  // --connections
+};
+
+bool needs_clusters(const Options& o) {
+  return o.connections || o.cluster_size > 0 || o.colour == "cluster" || o.colour == "cluster-identity" ||
+         o.colour == "membership";
+}
+
+ParticleColours colours_of(const io::ParticleFile& file, std::size_t k, const analysis::Clusters& clusters,
+                           const Options& o) {
+  if (o.colour == "size") return report::colours_by_size(file.particles());
+  if (o.colour == "species") return report::colours_by_species(file.particles(), file.species_names());
+  if (o.colour == "height") return report::colours_by_height(file.layer(k), file.layer(0).cell.height);
+  if (o.colour == "velocity") return report::colours_by_speed("speed", speeds_at(file, k));
+  if (o.colour == "global-velocity") return report::colours_by_speed("speed over the run", global_speeds(file));
+  if (o.colour == "local-solids")
+    return report::colours_by_local_solids(
+        analysis::local_solids(snapshot_of(file, k), file.particles().radius).solids_fraction);
+  if (o.colour == "cluster") return report::colours_by_cluster({clusters.size.begin(), clusters.size.end()});
+  if (o.colour == "cluster-identity") return report::colours_by_cluster_identity(clusters.id, clusters.size);
+  if (o.colour == "membership") return report::colours_by_membership(clusters.size);
+  throw InputError(
+      fmt::format("--colour: \"{}\" is none of size, species, height, velocity, global-velocity, local-solids, "
+                  "cluster, cluster-identity, membership",
+                  o.colour));
+}
+
+// The frames' looks, on one scale for all but velocity and local solids, whose scales are each frame's own.
+std::vector<FrameLook> looks_of(const io::ParticleFile& file, const std::vector<std::size_t>& frames,
+                                const Options& o) {
+  const double threshold = threshold_of(o);
+  std::vector<FrameLook> looks;
   for (const std::size_t k : frames) {
-    if (o.colour == "size")
-      all.push_back(report::colours_by_size(file.particles()));
-    else if (o.colour == "species")
-      all.push_back(report::colours_by_species(file.particles(), file.species_names()));
-    else if (o.colour == "height")
-      all.push_back(report::colours_by_height(file.layer(k), highest));
-    else if (o.colour == "velocity")
-      all.push_back(report::colours_by_speed("speed", speeds_at(file, k)));
-    else if (o.colour == "global-velocity")
-      all.push_back(report::colours_by_speed("speed over the run", global_speeds(file)));
-    else if (o.colour == "cluster") {
-      const Layer layer = file.layer(k);
-      const auto clusters = analysis::find_clusters({0, layer.cell, layer.position}, layer.particles.radius,
-                                                    layer.particles.id, threshold);
-      all.push_back(report::colours_by_cluster({clusters.size.begin(), clusters.size.end()}));
-    } else {
-      throw InputError(fmt::format(
-          "--colour: \"{}\" is none of size, species, height, velocity, global-velocity, cluster", o.colour));
-    }
+    analysis::Clusters clusters;
+    if (needs_clusters(o))
+      clusters = analysis::find_clusters(snapshot_of(file, k), file.particles().radius, file.particles().id, threshold);
+    FrameLook& look = looks.emplace_back();
+    look.colours = colours_of(file, k, clusters, o);
+    if (o.cluster_size > 0)
+      for (const std::int64_t size : clusters.size) look.colours.hidden.push_back(size < o.cluster_size);
+    if (o.connections)
+      for (const analysis::Connection& c : clusters.pairs)
+        look.links.push_back(
+            {static_cast<std::size_t>(c.first), static_cast<std::size_t>(c.second), c.separation});
   }
-  if (o.colour == "cluster")
-    for (ParticleColours& c : all)
-      c.high =
-          std::max_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.high < b.high; })->high;
-  return all;
+  if (o.colour == "cluster") {
+    double high = 0;
+    for (const FrameLook& look : looks) high = std::max(high, look.colours.high);
+    for (FrameLook& look : looks) look.colours.high = high;
+  }
+  return looks;
 }
 
 void run(const app::CommandLine& line, const Options& o) {
@@ -142,7 +180,8 @@ void run(const app::CommandLine& line, const Options& o) {
   settings.surface = around.free_surface && !o.no_surface;
   settings.substrate = around.substrate && !o.no_substrate;
   const auto frames = report::frames_option(file.times(), o.frame, o.time, o.frames, o.contact_sheet);
-  const auto colours = colours_of(file, frames, o);
+  report::whole_option("--cluster-size", o.cluster_size, 0, 1'000'000'000);
+  const auto looks = looks_of(file, frames, o);
   settings.framed_height = report::framed_height(file, frames);
 
   std::vector<report::Image> sheet;
@@ -150,7 +189,11 @@ void run(const app::CommandLine& line, const Options& o) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     settings.caption =
         o.bare || file.frame_count() < 2 ? "" : "t = " + report::time_text(file.times()[frames[i]]);
-    const report::Image image = report::draw_layer(file.layer(frames[i]), colours[i], settings);
+    const Layer layer = file.layer(frames[i]);
+    const report::Image image = o.connections
+                                    ? report::draw_connections(layer, looks[i].links, threshold_of(o),
+                                                               looks[i].colours.hidden, settings)
+                                    : report::draw_layer(layer, looks[i].colours, settings);
     if (o.contact_sheet > 0)
       sheet.push_back(image);
     else

@@ -68,6 +68,17 @@ Colour sequential(double position) {
   return from_oklch(lightness, chroma, hue);
 }
 
+Colour near_to_far(double position) {
+  const double t = std::clamp(position, 0.0, 1.0);
+  return from_oklch(0.60 - 0.12 * t, 0.21 - 0.04 * t, 27 - 125 * t);
+}
+
+Colour identity_tint(std::int64_t number) {
+  // Steps of the golden angle never come back near one another soon; two lightnesses part what still does.
+  const double hue = std::fmod(137.50776405 * static_cast<double>(number), 360.0);
+  return from_oklch(number % 2 == 0 ? 0.72 : 0.58, 0.13, hue);
+}
+
 Colour categorical(std::size_t index) {
   struct Tint {
     double lightness, chroma, hue;

@@ -26,6 +26,10 @@ Colour from_oklch(double lightness, double chroma, double hue);
 // Dark violet through teal to light yellow, with lightness rising evenly: order survives greyscale and the
 // common colour-vision deficiencies. position is clamped to 0..1.
 Colour sequential(double position);
+// Red (near, 0) through purple to blue (far, 1), evenly in Oklab. position is clamped to 0..1.
+Colour near_to_far(double position);
+// A tint of its own for each number: neighbouring numbers are far apart in hue.
+Colour identity_tint(std::int64_t number);
 // Distinct mineral tints of similar lightness, for species; they repeat after eight.
 Colour categorical(std::size_t index);
 

@@ -11,6 +11,7 @@
 namespace pigment::report {
 namespace {
 
+constexpr double ball_radius = 0.28, rod_radius = 0.14;  // of a picture of connections, over the particle's
 const Colour ink = from_srgb(38, 44, 54), soft_ink = from_srgb(92, 100, 112);
 
 Camera direction_of(const PictureSettings& s) {
@@ -42,13 +43,15 @@ std::vector<CuttingPlane> planes_of(const std::vector<AxisCut>& cuts, const Came
 }
 
 // Wrapped spheres: each centre inside the cell, and for sawn blocks also every image that reaches into it.
+// shown_radius: over the true one.
 std::vector<Sphere> spheres_of(const Layer& layer, const ParticleColours& colours, const PictureSettings& s,
-                               int repeat_x, int repeat_y) {
+                               int repeat_x, int repeat_y, double shown_radius) {
   std::vector<Sphere> spheres;
   const Cell& cell = layer.cell;
   for (std::size_t i = 0; i < layer.position.size(); ++i) {
+    if (!colours.hidden.empty() && colours.hidden[i]) continue;
     const Vec3 p = cell.wrap(layer.position[i]);
-    const double a = layer.particles.radius[i];
+    const double a = shown_radius * layer.particles.radius[i];
     const int extra = s.sawn ? 1 : 0;
     for (int ix = -extra; ix < repeat_x + extra; ++ix)
       for (int iy = -extra; iy < repeat_y + extra; ++iy) {
@@ -60,6 +63,34 @@ std::vector<Sphere> spheres_of(const Layer& layer, const ParticleColours& colour
       }
   }
   return spheres;
+}
+
+// Rods from middle to middle; one that crosses a side of the cell as two halves, each from its own particle. As many
+// copies as of the spheres.
+std::vector<Connection> rods_of(const Layer& layer, const std::vector<ParticleLink>& links, double farthest,
+                                const std::vector<char>& hidden, int repeat_x, int repeat_y) {
+  std::vector<Connection> rods;
+  const Cell& cell = layer.cell;
+  for (const ParticleLink& link : links) {
+    if (!hidden.empty() && (hidden[link.first] || hidden[link.second])) continue;
+    const Vec3 d = cell.minimum_image(layer.position[link.second] - layer.position[link.first]);
+    const Vec3 a = cell.wrap(layer.position[link.first]), b = cell.wrap(layer.position[link.second]);
+    const double radius =
+        rod_radius * std::min(layer.particles.radius[link.first], layer.particles.radius[link.second]);
+    const Colour colour = near_to_far(std::max(0.0, link.separation) / farthest);
+    const bool crosses = (b - a - d).norm() > 1e-9 * cell.width_x;
+    for (int ix = 0; ix < repeat_x; ++ix)
+      for (int iy = 0; iy < repeat_y; ++iy) {
+        const Vec3 shift(ix * cell.width_x, iy * cell.width_y, 0);
+        if (!crosses) {
+          rods.push_back({a + shift, b + shift, radius, colour});
+        } else {
+          rods.push_back({a + shift, a + 0.5 * d + shift, radius, colour});
+          rods.push_back({b + shift, b - 0.5 * d + shift, radius, colour});
+        }
+      }
+  }
+  return rods;
 }
 
 void draw_scale_bar(Image& image, const Camera& camera, double left, double bottom, double text_height) {
@@ -84,11 +115,15 @@ void draw_colour_bar(Image& image, const ParticleColours& colours, double left, 
     }
     return;
   }
+  if (colours.map == ParticleColours::Map::Identity) {
+    draw_text(image, right, bottom, colours.label, text_height, ink, TextAnchor::End);
+    return;
+  }
   const int x0 = static_cast<int>(left), x1 = static_cast<int>(right);
   const int y1 = static_cast<int>(bottom - 1.75 * text_height),
             y0 = static_cast<int>(y1 - 0.85 * text_height);
   for (int x = x0; x < x1; ++x)
-    for (int y = y0; y < y1; ++y) image.blend(x, y, sequential((x + 0.5 - x0) / (x1 - x0)), 1);
+    for (int y = y0; y < y1; ++y) image.blend(x, y, colours.on_scale((x + 0.5 - x0) / (x1 - x0)), 1);
   const std::string title = colours.unit.empty() ? colours.label : colours.label + " (" + colours.unit + ")";
   draw_text(image, right, y0 - 0.6 * text_height, title, text_height, ink, TextAnchor::End);
   const int wanted = std::max(2, static_cast<int>((right - left) / (5 * text_height)));
@@ -113,77 +148,20 @@ void draw_surface_line(Image& image, const Camera& camera, const Box& liquid, in
   draw_line(image, x0, y0, x1, y1, 1.4, from_srgb(70, 130, 190), 0.75);
 }
 
-}  // namespace
+// What a picture shows beside the particles.
+struct Overlay {
+  const std::vector<ParticleLink>* links = nullptr;
+  double farthest = 0;
+  double shown_radius = 1;  // of the particles, over the true one
+};
 
-Colour ParticleColours::of(std::size_t particle) const {
-  if (!categories.empty()) return categorical(static_cast<std::size_t>(std::max(0.0, value[particle])));
-  return sequential(position(value[particle]));
-}
-
-double ParticleColours::position(double v) const {
-  if (!(high > low)) return 0.5;
-  if (logarithmic) return std::log(std::max(v, 1e-300) / low) / std::log(high / low);
-  return (v - low) / (high - low);
-}
-
-Ticks scale_ticks(const ParticleColours& c, int wanted) {
-  if (!c.logarithmic || !(c.high > c.low)) return linear_ticks(c.low, c.high, wanted);
-  Ticks ticks = logarithmic_ticks(c.low, c.high);
-  std::erase_if(ticks.values, [&](double v) { return c.position(v) < 0.12 || c.position(v) > 0.88; });
-  ticks.values.insert(ticks.values.begin(), c.low);
-  ticks.values.push_back(c.high);
-  ticks.labels.clear();
-  for (const double v : ticks.values) ticks.labels.push_back(number_text(v, v < 10 ? 2 : 3));
-  return ticks;
-}
-
-ParticleColours colours_by_size(const Particles& particles) {
-  ParticleColours c{"diameter", "µm", {}, 0, 0, true, {}};
-  for (const double a : particles.radius) c.value.push_back(2 * a);
-  const auto [low, high] = std::minmax_element(c.value.begin(), c.value.end());
-  if (low != c.value.end()) c.low = *low, c.high = *high;
-  return c;
-}
-
-ParticleColours colours_by_species(const Particles& particles, const std::vector<std::string>& names) {
-  ParticleColours c{"species", "", {}, 0, 1, false, names};
-  for (const int s : particles.species) c.value.push_back(s);
-  c.value.resize(particles.size(), 0);
-  const double most = c.value.empty() ? 0 : *std::max_element(c.value.begin(), c.value.end());
-  for (std::size_t i = c.categories.size(); i <= static_cast<std::size_t>(most); ++i)
-    c.categories.push_back(fmt::format("species {}", i + 1));
-  return c;
-}
-
-ParticleColours colours_by_height(const Layer& layer, double highest) {
-  ParticleColours c{"height", "µm", {}, 0, highest, false, {}};
-  for (const Vec3& p : layer.position) c.value.push_back(p.z());
-  return c;
-}
-
-ParticleColours colours_by_speed(const std::string& label, const std::vector<double>& speed) {
-  ParticleColours c{label, "µm/s", {}, 0, 0, false, {}};
-  for (const double v : speed) c.value.push_back(1000 * v);
-  if (c.value.empty()) return c;
-  std::vector<double> sorted = c.value;
-  std::sort(sorted.begin(), sorted.end());
-  const auto percentile = [&](double p) {
-    return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1))];
-  };
-  c.low = percentile(0.02), c.high = percentile(0.98);
-  return c;
-}
-
-ParticleColours colours_by_cluster(const std::vector<double>& size) {
-  ParticleColours c{"particles in the cluster", "", size, 1, 2, true, {}};
-  for (const double s : size) c.high = std::max(c.high, s);
-  return c;
-}
-
-Image draw_layer(const Layer& layer, const ParticleColours& colours, const PictureSettings& s) {
+Image draw(const Layer& layer, const ParticleColours& colours, const Overlay& overlay, const PictureSettings& s) {
   const Cell& cell = layer.cell;
-  // From the side a second copy stands behind the first, so that gaps show particles and not the backdrop.
-  const int repeat_x = std::max(1, s.repeat), repeat_y = s.view != View::Side ? repeat_x : s.sawn ? 1 : 2;
+  // From the side a second copy stands behind the first, so that gaps show particles and not the backdrop; where only
+  // some are drawn, gaps are to be seen.
+  const bool all_drawn = overlay.links == nullptr && colours.hidden.empty();
+  const int repeat_x = std::max(1, s.repeat),
+            repeat_y = s.view != View::Side ? repeat_x : s.sawn || !all_drawn ? 1 : 2;
   const double wide = repeat_x * cell.width_x, deep = repeat_y * cell.width_y;
   double top = cell.height;
   for (std::size_t i = 0; i < layer.position.size(); ++i)
@@ -198,7 +176,9 @@ Image draw_layer(const Layer& layer, const ParticleColours& colours, const Pictu
   const int body_height = std::max(16, s.height - footer_height - header_height);
 
   SphereScene scene;
-  scene.spheres = spheres_of(layer, colours, s, repeat_x, repeat_y);
+  scene.spheres = spheres_of(layer, colours, s, repeat_x, repeat_y, overlay.shown_radius);
+  if (overlay.links != nullptr)
+    scene.connections = rods_of(layer, *overlay.links, overlay.farthest, colours.hidden, repeat_x, repeat_y);
   // Whole spheres stand out of the cell's faces by up to the largest radius: so do substrate and liquid, in
   // every frame alike.
   double overhang = 0;
@@ -246,6 +226,22 @@ Image draw_layer(const Layer& layer, const ParticleColours& colours, const Pictu
     draw_colour_bar(image, colours, right - length, right, bottom, text_height);
   }
   return image;
+}
+
+}  // namespace
+
+Image draw_layer(const Layer& layer, const ParticleColours& colours, const PictureSettings& s) {
+  return draw(layer, colours, {}, s);
+}
+
+Image draw_connections(const Layer& layer, const std::vector<ParticleLink>& links, double farthest,
+                       const std::vector<char>& hidden, const PictureSettings& s) {
+  ParticleColours colours{"surface separation", "nm", std::vector<double>(layer.position.size(), 0.0), 0,
+                          1000 * farthest, false, {}};
+  colours.map = ParticleColours::Map::NearToFar;
+  colours.pale.assign(layer.position.size(), 1);
+  colours.hidden = hidden;
+  return draw(layer, colours, {&links, farthest, ball_radius}, s);
 }
 
 Image contact_sheet(const std::vector<Image>& pictures, int columns) {

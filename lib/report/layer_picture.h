@@ -6,34 +6,12 @@
 #include <vector>
 
 #include "model/particles.h"
+#include "report/particle_colours.h"
 #include "report/render.h"
-#include "report/ticks.h"
 
 namespace pigment::report {
 
 enum class View { Side, Top, Oblique };
-
-// How numbers become colours: one value a particle. Categories (species) take tints of their own instead.
-struct ParticleColours {
-  std::string label;          // "diameter"
-  std::string unit;           // "µm"
-  std::vector<double> value;  // one a particle
-  double low = 0, high = 1;   // ends of the scale
-  bool logarithmic = false;
-  std::vector<std::string> categories;  // not empty: value is an index into these
-
-  Colour of(std::size_t particle) const;
-  double position(double value) const;  // on the scale, 0..1 inside its ends
-};
-// Round numbers along the scale; short logarithmic scales are told by their ends as well.
-Ticks scale_ticks(const ParticleColours&, int wanted);
-ParticleColours colours_by_size(const Particles&);
-ParticleColours colours_by_species(const Particles&, const std::vector<std::string>& names);
-ParticleColours colours_by_height(const Layer&, double highest);
-// speed: one a particle, um/ms (= mm/s), shown in um/s; ends of the scale are its 2nd and 98th percentile.
-ParticleColours colours_by_speed(const std::string& label, const std::vector<double>& speed);
-// size: particles in each particle's cluster; single particles stay pale.
-ParticleColours colours_by_cluster(const std::vector<double>& size);
 
 // One cut, parallel to an axis: keeps what lies below (or above) the position. No side: the part away from
 // the viewer.
@@ -61,6 +39,16 @@ struct PictureSettings {
 };
 
 Image draw_layer(const Layer&, const ParticleColours&, const PictureSettings&);
+
+// A connection between two particles, by index.
+struct ParticleLink {
+  std::size_t first = 0, second = 0;
+  double separation = 0;  // um
+};
+// The connections as rods between the particles' middles, red where these are near to blue where they are `farthest` um
+// apart; of the particles just small balls. What crosses a periodic border is drawn in two halves.
+Image draw_connections(const Layer&, const std::vector<ParticleLink>&, double farthest,
+                       const std::vector<char>& hidden, const PictureSettings&);
 
 // Pictures in a grid, left to right, with a gap between them; all of one size. columns 0: chosen to suit.
 Image contact_sheet(const std::vector<Image>&, int columns);

@@ -163,5 +163,74 @@ TEST(ContactSheet, HoldsEveryPicture) {
   EXPECT_EQ(blue, 600);
 }
 
+Layer three_spheres() {
+  Layer layer = one_sphere({0.4, 2, 2});
+  layer.particles.radius = {0.3, 0.3, 0.3};
+  layer.particles.species = {0, 0, 0};
+  layer.particles.id = {5, 6, 7};
+  layer.particles.mass = {0, 0, 0};
+  layer.position = {{0.4, 2, 2}, {3.6, 2, 2}, {2, 2, 3}};
+  return layer;
+}
+
+// Whether any pixel is about as red (blue) as a rod that is near (far).
+bool has_hue(const Image& image, int x0, int x1, bool red) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const int r = image.at(x, y)[0], b = image.at(x, y)[2];
+      if (red ? r > b + 60 : b > r + 60) return true;
+    }
+  return false;
+}
+
+TEST(LayerPicture, ConnectionsRunFromRedToBlueAndOverThePeriodicSide) {
+  // 0 and 1 meet across x, where half a rod sticks out at either side, in touch: red. 1 and 2 far apart: blue.
+  const Layer layer = three_spheres();
+  PictureSettings s = small();
+  s.surface = s.substrate = false;
+  const Image near = draw_connections(layer, {{0, 1, 0.0}}, 0.05, {}, s);
+  EXPECT_TRUE(has_hue(near, 0, 60, true) && has_hue(near, 140, 200, true));
+  EXPECT_FALSE(has_hue(near, 80, 120, true)) << "the rod goes through the cell, not across its side";
+  EXPECT_FALSE(has_hue(near, 0, 200, false));
+  const Image far = draw_connections(layer, {{1, 2, 0.05}}, 0.05, {}, s);
+  EXPECT_TRUE(has_hue(far, 80, 200, false));
+  EXPECT_FALSE(has_hue(far, 0, 200, true));
+  // A rod to a particle that is not drawn is not drawn.
+  const Image hidden = draw_connections(layer, {{0, 1, 0.0}, {1, 2, 0.05}}, 0.05, {0, 0, 1}, s);
+  EXPECT_TRUE(has_hue(hidden, 0, 200, true));
+  EXPECT_FALSE(has_hue(hidden, 0, 200, false));
+}
+
+TEST(LayerPicture, HiddenParticlesLeaveNoTrace) {
+  const Layer layer = three_spheres();
+  PictureSettings s = small();
+  s.view = View::Top;
+  auto colours = colours_by_size(layer.particles);
+  colours.hidden = {1, 1, 1};
+  const Image none = draw_layer(layer, colours, s);
+  Layer moved = layer;
+  moved.position[0].x() += 1;
+  EXPECT_EQ(none.rgb, draw_layer(moved, colours, s).rgb);
+  colours.hidden = {0, 1, 1};
+  EXPECT_NE(none.rgb, draw_layer(layer, colours, s).rgb);
+}
+
+TEST(ParticleColours, OfClustersKeepThoseAloneApart) {
+  const auto by_size = colours_by_cluster({1, 2, 40});
+  EXPECT_EQ(by_size.low, 2);
+  EXPECT_EQ(by_size.high, 40);
+  const auto grey = to_srgb(by_size.of(0));
+  EXPECT_LT(std::abs(grey[0] - grey[2]), 10);
+  EXPECT_EQ(to_hex(by_size.of(1)), to_hex(sequential(0)));
+  EXPECT_EQ(to_hex(by_size.of(2)), to_hex(sequential(1)));
+  const auto identity = colours_by_cluster_identity({3, 4, 4, 9}, {2, 3, 3, 1});
+  EXPECT_EQ(to_hex(identity.of(1)), to_hex(identity.of(2)));
+  EXPECT_NE(to_hex(identity.of(0)), to_hex(identity.of(1)));
+  EXPECT_EQ(to_hex(identity.of(3)), to_hex(by_size.of(0)));
+  const auto member = colours_by_membership({1, 2, 40});
+  EXPECT_NE(to_hex(member.of(0)), to_hex(member.of(1)));
+  EXPECT_EQ(to_hex(member.of(1)), to_hex(member.of(2)));
+}
+
 }  // namespace
 }  // namespace pigment::report
