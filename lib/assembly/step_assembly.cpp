@@ -79,12 +79,13 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   }
 }
 
-void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liquid& liquid, double dt, bool implicit,
+void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liquid& liquid, double dt, Treatment treatment,
                          const Vec3Array& force, const std::vector<double>& protrusion) {
   film_ = film;
   liquid_ = liquid;
   dt_ = dt;
-  implicit_ = implicit;
+  implicit_ = treatment != Treatment::Explicit;
+  newton_ = treatment == Treatment::Newton;
   if (liquid.temperature != prepared_temperature_) {
     laws_.clear();
     for (const auto& [name, law] : interactions_.colloidal) laws_.push_back(law->prepare(liquid));
@@ -221,7 +222,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       double& guess = geometry_[p].gap;
       if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
-      if (gap_begin_[p] <= 0 || !implicit_) continue;
+      if (gap_begin_[p] <= 0 || !newton_) continue;
       if (off_guess(gap, guess, guess != gap_begin_[p])) {
         guess = next_guess(gap, guess);
         check.refine = true;
@@ -233,7 +234,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         const double gap = z - a, begin = position_[k].z() - a;
         double& guess = substrate_geometry_[k].gap;
         if (interactions_.lubrication() && begin > 0) {
-          if (off_guess(gap, guess, guess != begin)) {
+          if (gap <= 0 && !newton_) check.crossed = true;
+          if (newton_ && off_guess(gap, guess, guess != begin)) {
             guess = next_guess(gap, guess);
             check.refine = true;
           }

@@ -40,6 +40,10 @@ struct GapCheck {
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
 };
 
+// How a step takes what depends on the gaps: forces and resistances at its beginning; forces linearised there; or both
+// linearised about the gaps that come out, found by iteration.
+enum class Treatment { Explicit, LinearlyImplicit, Newton };
+
 class StepAssembly {
  public:
   // Arrays of the particles in engine order follow from list.order; species potentials from interactions.
@@ -47,7 +51,7 @@ class StepAssembly {
 
   // Geometry at the beginning of a step. position: file order; force: external (Brownian) force a particle, file order, or
   // empty; protrusion: guess of each particle's protrusion through the free surface at the end of the step, file order.
-  void begin(const Vec3Array& position, const Film&, const Liquid&, double dt, bool implicit, const Vec3Array& force,
+  void begin(const Vec3Array& position, const Film&, const Liquid&, double dt, Treatment, const Vec3Array& force,
              const std::vector<double>& protrusion);
   // Fills the system for the current guesses.
   void build(solve::PairSystem&) const;
@@ -93,7 +97,7 @@ class StepAssembly {
   Film film_;
   Liquid liquid_{};
   double dt_ = 0;
-  bool implicit_ = true;
+  bool implicit_ = true, newton_ = true;
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
   double prepared_temperature_ = -1;
   std::vector<Vec3> position_, external_force_;

@@ -21,11 +21,30 @@ std::uint64_t spread(std::uint64_t v) {
 }  // namespace
 
 bool NeighbourList::is_spent(const Vec3Array& position) const {
-  // Two particles that each moved less than half the skin have not come nearer by more than the skin.
-  const double limit = 0.25 * range.skin * range.skin;
-  for (std::size_t k = 0; k < position.size(); ++k)
-    if ((position[k] - reference[k]).squaredNorm() > limit) return true;
-  return false;
+  // Displacements along z, fitted by shift + strain z. Two particles a distance r apart, each within `residual` of the fit, have
+  // come nearer by at most 2 residual + |strain| r. A pair outside the list had r >= 2 a + limit with its skin, a the largest
+  // radius; all r beyond are served by the same bound as r itself, since (1 - |strain|) r grows with r.
+  const auto n = static_cast<double>(position.size());
+  double z_mean = 0, shift = 0;
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    z_mean += reference[k].z() / n;
+    shift += (position[k].z() - reference[k].z()) / n;
+  }
+  double zz = 0, zd = 0;
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    const double z = reference[k].z() - z_mean;
+    zz += z * z;
+    zd += z * (position[k].z() - reference[k].z() - shift);
+  }
+  const double strain = zz > 0 ? zd / zz : 0;
+  double residual = 0;
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    Vec3 d = position[k] - reference[k];
+    d.z() -= shift + strain * (reference[k].z() - z_mean);
+    residual = std::max(residual, d.squaredNorm());
+  }
+  const double skin = range.skin - std::abs(strain) * (2 * largest_radius + range.limit(largest_radius, largest_radius));
+  return !(skin > 0 && 4 * residual <= skin * skin);
 }
 
 NeighbourList make_neighbour_list(const Cell& cell, const Vec3Array& position,
@@ -33,6 +52,7 @@ NeighbourList make_neighbour_list(const Cell& cell, const Vec3Array& position,
   NeighbourList list;
   list.range = range;
   list.reference = position;
+  list.largest_radius = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
   const std::size_t n = position.size();
   double lowest = 0, highest = 0;
   for (const Vec3& p : position) {

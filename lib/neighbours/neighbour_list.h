@@ -13,11 +13,13 @@ namespace pigment::neighbours {
 
 struct NeighbourList {
   PairRange range;
+  double largest_radius = 0;        // um
   Vec3Array reference;              // positions when the list was made, in file order
   std::vector<std::int32_t> order;  // engine index -> file index
   std::vector<IndexPair> pairs;     // engine indices, i < j, sorted by i then j
 
-  // Whether any two particles could have come closer by more than the skin since the list was made.
+  // Whether any two particles could have come closer by more than the skin since the list was made. What the layer does as a
+  // whole (rise or sink, shrink evenly along z) is told apart from what its particles do against each other.
   bool is_spent(const Vec3Array& position) const;
 };
 

@@ -5,10 +5,13 @@ namespace pigment::stepping {
 SteppingParameters read_stepping(config::Node node) {
   using P = SteppingParameters;
   P p;
-  // auto: linearly implicit.
-  p.integrator = node.choice<P::Integrator>("integrator", {{"auto", P::Integrator::LinearlyImplicit},
-                                                            {"linearly_implicit", P::Integrator::LinearlyImplicit},
-                                                            {"explicit_euler", P::Integrator::ExplicitEuler}}, "auto");
+  using I = P::Integrator;
+  p.integrator = node.choice<I>("integrator", {{"auto", I::Automatic},
+                                               {"explicit_euler", I::ExplicitEuler},
+                                               {"explicit_midpoint", I::ExplicitMidpoint},
+                                               {"linearly_implicit", I::LinearlyImplicit},
+                                               {"newton_implicit", I::NewtonImplicit},
+                                               {"extrapolated", I::Extrapolated}}, "auto");
   if (node.has("time_step") && !node.is_word("time_step", "auto"))
     p.time_step = node.quantity("time_step", Dimension::Time, config::positive());
   else

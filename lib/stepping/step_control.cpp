@@ -18,6 +18,10 @@ double brownian_step(const Particles& particles, const Liquid& liquid, double sc
   return 9 * scale * scale / (2 * diffusivity);
 }
 
+double solver_tolerance(const SteppingParameters& p, bool noisy) {
+  return p.solver_tolerance.value_or(noisy ? 1e-3 : std::clamp(0.1 * p.tolerance, 1e-8, 1e-3));
+}
+
 double next_step(double step, double error) {
   const double wanted = error > 0 ? 0.9 / std::sqrt(error) : 1.5;
   return step * std::clamp(wanted, 0.3, 1.5);

@@ -9,6 +9,7 @@
 // after the noise is known would bias it.
 #include "assembly/interactions.h"
 #include "model/particles.h"
+#include "stepping/parameters.h"
 
 namespace pigment::stepping {
 
@@ -16,6 +17,9 @@ namespace pigment::stepping {
 double gap_scale(const assembly::Interactions&, const Liquid&);
 // ms.
 double brownian_step(const Particles&, const Liquid&, double gap_scale);
+// Relative residual of each solve: the scene's, or a tenth of the step tolerance. One step's noise moves particles by
+// nanometres either way: a thousandth of it is far below its own weak error.
+double solver_tolerance(const SteppingParameters&, bool noisy);
 // Next step from the last one's error in units of the tolerance: local error of a first-order method goes with dt^2.
 double next_step(double step, double error);
 

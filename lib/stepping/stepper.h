@@ -1,30 +1,12 @@
 #pragma once
-// One step of the layer: linearly implicit Euler for R(x) x' = F(x, t), solved again where gaps close or the surface catches
-// particles (assembly/step_assembly.h), and the choice of its length.
+// One step of the layer by the scene's integrator (stepping/integrator.h), and the choice of its length.
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "assembly/step_assembly.h"
-#include "model/brownian_constant.h"
-#include "model/dewatering_curve.h"
-#include "solve/conjugate_gradients.h"
-#include "stepping/parameters.h"
+#include "stepping/integrator.h"
+#include "stepping/problem.h"
 #include "stepping/run_state.h"
 
 namespace pigment::stepping {
-
-// What a run is given and never changes.
-struct Problem {
-  Particles particles;
-  Cell cell;                                          // of the packing; height is H(0)
-  assembly::Interactions interactions;
-  DewateringCurve dewatering;                         // empty time: no flow
-  std::optional<BrownianCalibration> calibration;     // absent: the closed form
-  SteppingParameters stepping;
-  std::uint64_t seed = 1;
-};
 
 struct StepReport {
   double step = 0;              // ms, taken
@@ -40,7 +22,6 @@ struct StepReport {
 class Stepper {
  public:
   Stepper(const Problem&, const RunState&);
-  ~Stepper();
   // Advances the state by at most `longest` ms. Throws NumericsError (step, time, pair, radii, gap, force and a step that
   // would do) where no step down to 1e-9 ms succeeds; the state is then as before.
   StepReport advance(RunState&, double longest);
@@ -49,8 +30,9 @@ class Stepper {
   double height_at(double time) const;  // um; the cell's own height where there is no free surface
 
  private:
-  struct Data;
-  std::unique_ptr<Data> data_;
+  StepContext context_;
+  std::unique_ptr<Integrator> integrator_;
+  long saved_factor_ = 0;  // revision of the factor that the state holds
 };
 
 // A state at rest at time 0 for a packing.

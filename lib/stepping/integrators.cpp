@@ -1,0 +1,25 @@
+#include "stepping/integrator.h"
+
+namespace pigment::stepping {
+
+std::unique_ptr<Integrator> make_integrator(const Problem& problem) {
+  using I = SteppingParameters::Integrator;
+  switch (problem.stepping.integrator) {
+    case I::ExplicitEuler: return explicit_euler();
+    case I::ExplicitMidpoint: return explicit_midpoint();
+    case I::LinearlyImplicit: return linearly_implicit();
+    case I::Extrapolated: return extrapolated();
+    case I::NewtonImplicit:
+    case I::Automatic: break;
+  }
+  return newton_implicit();
+}
+
+Vec3Array moved(const Vec3Array& position, const Vec3Array& velocity, double dt) {
+  Vec3Array result(position.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < position.size(); ++k) result[k] = position[k] + dt * velocity[k];
+  return result;
+}
+
+}  // namespace pigment::stepping

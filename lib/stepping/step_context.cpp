@@ -1,0 +1,187 @@
+#include "stepping/step_context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "neighbours/neighbour_list.h"
+#include "stepping/step_control.h"
+
+namespace pigment::stepping {
+
+namespace {
+constexpr int most_refinements = 25;
+}
+
+StepContext::StepContext(const Problem& problem, const RunState& state) : problem_(problem) {
+  make_list(state.list_reference, liquid_at(problem.interactions.liquid, state.list_temperature));
+  solver_.restore_factor(state.solver_factor, assembly_->topology());
+}
+
+Liquid StepContext::liquid_at_time(double t) const {
+  return liquid_at(problem_.interactions.liquid,
+                   problem_.dewatering.temperature_at(t, problem_.interactions.liquid.temperature));
+}
+
+double StepContext::height_at(double t) const {
+  if (!problem_.interactions.free_surface || problem_.dewatering.time.empty()) return problem_.cell.height;
+  return problem_.cell.height - problem_.dewatering.absorbed_at(t) - problem_.dewatering.evaporated_at(t);
+}
+
+assembly::Film StepContext::film(double begin, double end) const {
+  assembly::Film f;
+  f.height_begin = height_at(begin);
+  f.height_end = height_at(end);
+  if (!problem_.dewatering.time.empty()) {
+    f.absorption = problem_.dewatering.mean_absorption_flux(begin, end);
+    f.evaporation = problem_.dewatering.mean_evaporation_flux(begin, end);
+  }
+  return f;
+}
+
+void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
+  neighbours::PairRange range = assembly::pair_range(problem_.interactions, liquid);
+  // A wider skin lists more pairs and lasts longer. Noise shakes every particle at every step and spends it sooner.
+  const double smallest = *std::min_element(problem_.particles.radius.begin(), problem_.particles.radius.end());
+  range.skin = std::max(0.02, (problem_.interactions.brownian ? 0.8 : 0.4) * smallest);
+  list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
+  assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);
+}
+
+void StepContext::refresh_list(RunState& state) {
+  if (!list_.is_spent(state.position)) return;
+  const Liquid liquid = liquid_at_time(state.time);
+  state.list_reference = state.position;
+  state.list_temperature = liquid.temperature;
+  make_list(state.list_reference, liquid);
+  solver_.forget_factor();
+}
+
+std::vector<double> StepContext::in_engine_order(const Vec3Array& u, const Vec3Array& w) const {
+  const std::size_t D = unknowns();
+  std::vector<double> x(list_.order.size() * D);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < list_.order.size(); ++k) {
+    for (int d = 0; d < 3; ++d) x[k * D + d] = u[list_.order[k]][d];
+    if (D == 6)
+      for (int d = 0; d < 3; ++d) x[k * D + 3 + d] = w[list_.order[k]][d];
+  }
+  return x;
+}
+
+void StepContext::in_file_order(const std::vector<double>& x, Vec3Array& u, Vec3Array& w) const {
+  const std::size_t D = unknowns(), n = list_.order.size();
+  u.resize(n);
+  w.assign(n, Vec3::Zero());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::int32_t i = list_.order[k];
+    u[i] = Vec3(x[k * D], x[k * D + 1], x[k * D + 2]);
+    if (D == 6) w[i] = Vec3(x[k * D + 3], x[k * D + 4], x[k * D + 5]);
+  }
+}
+
+std::vector<double> StepContext::extrapolated_velocity(const RunState& state) const {
+  if (problem_.interactions.brownian) return {};
+  std::vector<double> guess = in_engine_order(state.velocity, state.angular_velocity);
+  if (state.last_step > 0) {
+    const std::vector<double> before = in_engine_order(state.previous_velocity, state.previous_angular_velocity);
+    for (std::size_t q = 0; q < guess.size(); ++q) guess[q] += guess[q] - before[q];
+  }
+  return guess;
+}
+
+std::vector<double> StepContext::gaps(const Vec3Array& position) const {
+  std::vector<double> gap(list_.pairs.size());
+  const auto& radius = problem_.particles.radius;
+#pragma omp parallel for schedule(static)
+  for (std::size_t p = 0; p < gap.size(); ++p) {
+    const std::int32_t i = list_.order[list_.pairs[p].i], j = list_.order[list_.pairs[p].j];
+    gap[p] = problem_.cell.minimum_image(position[j] - position[i]).norm() - radius[i] - radius[j];
+  }
+  return gap;
+}
+
+double StepContext::gap_error(const std::vector<double>& gap, const std::vector<double>& difference) const {
+  const double scale = gap_scale_;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < gap.size(); ++p) {
+    const std::int32_t i = list_.order[list_.pairs[p].i], j = list_.order[list_.pairs[p].j];
+    const double smaller = std::min(problem_.particles.radius[i], problem_.particles.radius[j]);
+    if (gap[p] > std::max(20 * scale, 0.4 * smaller)) continue;
+    const double error = difference[p] / (std::max(gap[p], 0.0) + scale);
+    sum += error * error;
+    ++count;
+  }
+  return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+std::vector<double> StepContext::gap_rates(const std::vector<double>& solution) const {
+  std::vector<double> rate;
+  assembly_->gap_velocities(solution, rate);
+  return rate;
+}
+
+// One random unit vector a particle and step: (a)-(e) of section 3.3.3 in [sand2010].
+// Differs from [sand2010]: step (d) there reads x = sqrt(r cos t); x = r cos t is meant.
+Vec3Array StepContext::brownian_force(std::int64_t step, double dt, const Liquid& liquid) const {
+  const std::size_t n = problem_.particles.size();
+  const double k = problem_.calibration ? problem_.calibration->value_at(liquid.temperature, dt)
+                                        : brownian_constant(liquid.viscosity, liquid.thermal_energy(), dt);
+  const RandomKey key{problem_.seed, Stream::BrownianForce};
+  Vec3Array force(n);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto u = random_uniforms(key, static_cast<std::uint64_t>(step), static_cast<std::uint64_t>(problem_.particles.id[i]));
+    const double z = 2 * u[0] - 1, t = 2 * std::numbers::pi * u[1], r = std::sqrt(1 - z * z);
+    force[i] = k * std::sqrt(problem_.particles.radius[i]) * Vec3(r * std::cos(t), r * std::sin(t), z);  // (25)
+  }
+  return force;
+}
+
+StepSolution StepContext::solve(const StepStart& start, assembly::Treatment treatment, std::vector<double> guess) {
+  const bool noisy = problem_.interactions.brownian.has_value();
+  const Liquid liquid = liquid_at_time(start.time);
+  gap_scale_ = gap_scale(problem_.interactions, liquid);
+  const Vec3Array force = noisy ? brownian_force(start.number, start.step, liquid) : Vec3Array{};
+  const solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
+  assembly_->begin(start.position, film(start.time, start.time + start.step), liquid, start.step, treatment, force, start.protrusion);
+  StepSolution s;
+  s.velocity = std::move(guess);
+  for (int pass = 0; pass < most_refinements; ++pass) {
+    assembly_->build(system_);
+    s.solve = solver_.solve(system_, s.velocity, options);
+    s.iterations += s.solve.iterations;
+    ++s.solves;
+    if (!s.solve.converged) return s;
+    s.check = assembly_->refine(system_, s.velocity);
+    if (s.check.refine) continue;
+    // Without lubrication nothing keeps spheres apart but their forces, and a scene may have none.
+    s.good = !s.check.crossed || !problem_.interactions.lubrication();
+    break;
+  }
+  if (!s.good) return s;
+  s.pressures = assembly_->boundary_pressures(s.velocity);
+  s.protrusion = assembly_->protrusions();
+  return s;
+}
+
+std::string StepContext::describe_failure(const RunState& state, double dt, const StepSolution& s) const {
+  std::string what = fmt::format("step {} at t = {:.6g} s failed with dt = {:.3g} s", state.step, state.time * 1e-3, dt * 1e-3);
+  if (!s.solve.message.empty()) what += "; the solver: " + s.solve.message;
+  if (assembly_->pair_count() > 0 && s.check.worst_pair < assembly_->pair_count()) {
+    const auto pair = assembly_->pair(s.check.worst_pair);
+    const std::int32_t i = list_.order[pair.i], j = list_.order[pair.j];
+    const auto& particles = problem_.particles;
+    what += fmt::format("; worst pair: ids {} and {}, radii {:.4g} and {:.4g} um, gap {:.3g} nm at the step's end, colloidal force {:.3g} pN",
+                        particles.id[i], particles.id[j], particles.radius[i], particles.radius[j], s.check.smallest_gap * 1e3,
+                        assembly_->pair_force(s.check.worst_pair));
+  }
+  return what + fmt::format("; try stepping.time_step below {:.1g} s or a smaller stepping.tolerance", dt * 1e-4);
+}
+
+}  // namespace pigment::stepping

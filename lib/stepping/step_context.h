@@ -1,0 +1,84 @@
+#pragma once
+// What the integrators share: the layer's surroundings in time, its neighbour list, and the solution of one linear or Newton
+// step from given positions.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assembly/step_assembly.h"
+#include "solve/adaptive_solver.h"
+#include "stepping/problem.h"
+#include "stepping/run_state.h"
+
+namespace pigment::stepping {
+
+// From where a step goes, and how far.
+struct StepStart {
+  const Vec3Array& position;              // file order, um
+  const std::vector<double>& protrusion;  // guess for the free surface, file order, um
+  double time = 0;                        // ms
+  double step = 0;                        // ms
+  std::int64_t number = 0;                // of the step: names its noise
+};
+
+// Velocities of one solve and what they say of the step.
+struct StepSolution {
+  bool good = false;                   // converged, and no gap that was open came out closed
+  std::vector<double> velocity;        // engine order, D a particle
+  std::vector<double> protrusion;      // guess for the next step, file order
+  assembly::BoundaryPressures pressures;
+  assembly::GapCheck check;
+  solve::SolveReport solve;
+  int iterations = 0, solves = 0;
+};
+
+class StepContext {
+ public:
+  StepContext(const Problem&, const RunState&);
+
+  const Problem& problem() const { return problem_; }
+  Liquid liquid_at_time(double time) const;
+  double height_at(double time) const;  // um; the cell's own height where there is no free surface
+  // Makes the neighbour list anew where the state's positions have spent it, and records in the state what it was made from.
+  void refresh_list(RunState&);
+
+  // One solve of R U = F (explicit), (R + dt K) U = F (linearly implicit), or this repeated until every gap came out near what
+  // the system was linearised about (Newton). guess: velocities to start the solver from, engine order; empty: none.
+  StepSolution solve(const StepStart&, assembly::Treatment, std::vector<double> guess);
+  // Velocities of the last step, extrapolated: the guess for the next one. Empty with Brownian motion, whose last velocities
+  // are worse than none.
+  std::vector<double> extrapolated_velocity(const RunState&) const;
+
+  std::size_t unknowns() const { return problem_.interactions.rotation() ? 6 : 3; }
+  std::vector<double> in_engine_order(const Vec3Array& velocity, const Vec3Array& angular) const;
+  void in_file_order(const std::vector<double>& solution, Vec3Array& velocity, Vec3Array& angular) const;
+  // Gap of every listed pair at these positions (file order), um.
+  std::vector<double> gaps(const Vec3Array& position) const;
+  // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
+  // gap + Debye length.
+  double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;
+  // Rate of change of every listed pair's gap, at the normals of the step solved last, um/ms.
+  std::vector<double> gap_rates(const std::vector<double>& solution) const;
+  const std::vector<double>& gaps_of_last_step() const { return assembly_->gaps(); }
+
+  // The solver's factor belongs to the run's state; revision changes with it.
+  long factor_revision() const { return solver_.revision(); }
+  const std::vector<std::int64_t>& packed_factor() const { return solver_.packed_factor(); }
+
+  // Why a step of this length failed: step, time, pair, radii, gap, force and a step that would do.
+  std::string describe_failure(const RunState&, double dt, const StepSolution&) const;
+
+ private:
+  assembly::Film film(double begin, double end) const;
+  void make_list(const Vec3Array& reference, const Liquid&);
+  Vec3Array brownian_force(std::int64_t step, double dt, const Liquid&) const;
+
+  const Problem& problem_;
+  neighbours::NeighbourList list_;
+  std::unique_ptr<assembly::StepAssembly> assembly_;
+  solve::PairSystem system_;
+  solve::AdaptiveSolver solver_;
+  double gap_scale_ = 0;  // um, at the temperature of the step solved last
+};
+
+}  // namespace pigment::stepping
