@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "stepping/integrator.h"
 
 namespace pigment::stepping {
@@ -6,9 +8,9 @@ namespace {
 
 // Extrapolated Euler, [deuflhard1987]: the Newton-implicit step is Euler's up to a second-order term, so twice the result of two
 // half steps less that of one whole step is of second order; their difference is the error of the half steps' result, which the
-// step control holds. Where the extrapolated gap of a pair would leave the bracket of a fifth of what the half steps give (both
-// are far apart near contact, where a gap closes within the step), the half steps' result stands for the whole step: it is
-// first order there, and never crosses.
+// step control holds.
+// Extrapolating knows nothing of contact. A particle that it would bring nearer to another, or to the substrate, than a fifth of
+// the gap that the half steps leave (which never cross), or through the free surface, stays where the half steps put it.
 class Extrapolated final : public Integrator {
  public:
   Attempt attempt(StepContext& context, const RunState& state, double dt, bool with_error) const override {
@@ -47,25 +49,34 @@ class Extrapolated final : public Integrator {
       for (std::size_t p = 0; p < gap.size(); ++p) difference[p] = gap_halves[p] - gap_whole[p];
       a.error = context.gap_error(gap, difference);
     }
+    const Vec3Array mean_velocity = u, mean_angular = w;
     context.in_file_order(better, a.velocity, a.angular_velocity);
     a.position = moved(state.position, a.velocity, dt);
-    const std::vector<double> gap_better = context.gaps(a.position);
-    double smallest = gap_better.empty() ? a.last.check.smallest_gap : gap_better[0];
-    bool safe = true;
-    for (std::size_t p = 0; p < gap.size(); ++p) {
-      smallest = std::min(smallest, gap_better[p]);
-      if (gap_halves[p] > 0 && gap_better[p] < 0.2 * gap_halves[p]) safe = false;
-    }
-    if (safe) {
-      a.last.check.smallest_gap = smallest;
-    } else {
-      a.position = halves;
-      context.in_file_order(mean, a.velocity, a.angular_velocity);
+    const auto keep_halves = [&](std::size_t k) {
+      if (a.position[k] == halves[k]) return false;
+      a.position[k] = halves[k];
+      a.velocity[k] = mean_velocity[k];
+      a.angular_velocity[k] = mean_angular[k];
+      return true;
+    };
+    for (std::size_t k : context.particles_astray(a.position, halves, second.protrusion, state.time + dt)) keep_halves(k);
+    // Moving one back can bring it near a neighbour that went on: until none is, or all are back.
+    for (bool settled = false; !settled;) {
+      settled = true;
+      const std::vector<double> end = context.gaps(a.position);
+      a.last.check.smallest_gap = end.empty() ? a.last.check.smallest_gap : *std::min_element(end.begin(), end.end());
+      for (std::size_t p = 0; p < gap.size(); ++p)
+        if (gap_halves[p] > 0 && end[p] < nearest * gap_halves[p]) {
+          const auto [i, j] = context.pair(p);
+          const bool i_moved = keep_halves(i), j_moved = keep_halves(j);
+          if (i_moved || j_moved) settled = false;
+        }
     }
     return a;
   }
 
  private:
+  static constexpr double nearest = StepContext::nearest_share;
   static bool take(Attempt& a, const StepSolution& s) {
     a.last = s;
     a.iterations += s.iterations;

@@ -16,7 +16,7 @@ SteppingParameters read_stepping(config::Node node) {
     p.time_step = node.quantity("time_step", Dimension::Time, config::positive());
   else
     node.accept_word("time_step", "auto");
-  p.tolerance = node.number("tolerance", 1e-3, config::strictly_between(0, 1));
+  p.tolerance = node.number("tolerance", 1e-2, config::strictly_between(0, 1));
   if (node.has("until") && !node.is_word("until", "auto"))
     p.until = node.quantity("until", Dimension::Time, config::positive());
   else

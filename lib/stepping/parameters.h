@@ -9,7 +9,7 @@ namespace pigment::stepping {
 struct SteppingParameters {
   enum class Integrator { Automatic, ExplicitEuler, ExplicitMidpoint, LinearlyImplicit, NewtonImplicit, Extrapolated };
   Integrator integrator = Integrator::Automatic;  // stepping/integrator.h
-  double tolerance = 1e-3;           // error of a gap in one step, in Debye lengths (see step_control.h)
+  double tolerance = 1e-2;           // error of a gap in one step, in units of gap + Debye length (see step_control.h)
   std::optional<double> time_step;   // ms; given: fixed steps
   std::optional<double> until;       // ms; absent: the end of the dewatering curve
   enum class StopWhen { Immobile, Until };

@@ -22,7 +22,7 @@ struct FirstStep {
   Vec3Array position;
   assembly::Film film{20, 20, 0, 0};
   double dt = 0.01;
-  bool implicit = true;
+  assembly::Treatment treatment = assembly::Treatment::Newton;
   Vec3Array force;
 
   neighbours::NeighbourList list;
@@ -51,7 +51,7 @@ struct FirstStep {
     range.skin = 0.1;
     list = neighbours::make_neighbour_list(cell, position, particles.radius, range);
     step = std::make_unique<StepAssembly>(interactions, particles, cell, list);
-    step->begin(position, film, liquid, dt, implicit, force, std::vector<double>(position.size(), 0.0));
+    step->begin(position, film, liquid, dt, treatment, force, std::vector<double>(position.size(), 0.0));
     step->build(system);
   }
   // Right-hand side on a particle, file order.
@@ -107,11 +107,11 @@ TEST(StepAssembly, PairForceIsTheLawsAndActsBothWays) {
 
 // The implicit system holds dt k besides the squeeze resistance, k = -df/dh by differences of the law's own force.
 TEST(StepAssembly, ImplicitStepAddsTheStiffnessOfRepulsion) {
-  const auto squeeze = [](double dt, bool implicit, const std::string& laws) {
+  const auto squeeze = [](double dt, assembly::Treatment treatment, const std::string& laws) {
     FirstStep layer;
     layer.colloidal(laws);
     layer.dt = dt;
-    layer.implicit = implicit;
+    layer.treatment = treatment;
     layer.add(0.5, {10, 10, 10});
     layer.add(0.5, {10, 10, 11.006});
     layer.build();
@@ -127,11 +127,11 @@ TEST(StepAssembly, ImplicitStepAddsTheStiffnessOfRepulsion) {
     return layer.rhs(1).z();
   };
   const double stiffness = -(force(0.00601) - force(0.00599)) / 2e-5;
-  const double viscous = squeeze(0.01, false, repulsion);
-  EXPECT_NEAR(squeeze(0.01, true, repulsion) - viscous, 0.01 * stiffness, 1e-5 * 0.01 * stiffness);
-  EXPECT_NEAR(squeeze(0.05, true, repulsion) - viscous, 0.05 * stiffness, 1e-5 * 0.05 * stiffness);
+  const double viscous = squeeze(0.01, assembly::Treatment::Explicit, repulsion);
+  EXPECT_NEAR(squeeze(0.01, assembly::Treatment::Newton, repulsion) - viscous, 0.01 * stiffness, 1e-5 * 0.01 * stiffness);
+  EXPECT_NEAR(squeeze(0.05, assembly::Treatment::Newton, repulsion) - viscous, 0.05 * stiffness, 1e-5 * 0.05 * stiffness);
   // Attraction has the other sign: it stays explicit, so that the matrix stays positive definite.
-  EXPECT_EQ(squeeze(0.05, true, attraction), viscous);
+  EXPECT_EQ(squeeze(0.05, assembly::Treatment::Newton, attraction), viscous);
 }
 
 TEST(StepAssembly, GapVelocitiesAndRefinementFollowTheSolution) {

@@ -1,0 +1,117 @@
+// Each integrator against its own limit of small steps: the order it claims, and what it does where steps are too long.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "support/one_layer.h"
+
+using namespace pigment;
+using Integrator = stepping::SteppingParameters::Integrator;
+
+namespace {
+
+struct Setting {
+  stepping::Problem problem;
+  Vec3Array position;
+};
+
+// Three charged spheres of different sizes, pressed onto each other askew by weight: every gap, force and resistance changes
+// smoothly in time.
+Setting settling_triplet() {
+  Setting s;
+  s.problem = test::empty_problem();
+  s.problem.interactions.gravity = forces::GravityParameters{300};
+  auto document = config::Document::from_text("colloidal: {electrostatic: {debye_length: 20 nm}}");
+  s.problem.interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
+  test::add_particle(s.problem, s.position, 0.5, Vec3(50, 50, 50));
+  test::add_particle(s.problem, s.position, 0.3, Vec3(50.35, 50, 50.78));
+  test::add_particle(s.problem, s.position, 0.4, Vec3(49.9, 50.75, 50.6));
+  s.problem.particles.mass[0] = 1e-3 * Particles::sphere_volume(0.5);
+  return s;
+}
+
+Vec3Array after(const Setting& s, Integrator integrator, double step, int steps) {
+  stepping::Problem problem = s.problem;
+  problem.stepping.integrator = integrator;
+  problem.stepping.time_step = step;
+  stepping::RunState state = stepping::initial_state(problem, s.position);
+  stepping::Stepper stepper(problem, state);
+  for (int k = 0; k < steps; ++k) stepper.advance(state, step);
+  return state.position;
+}
+
+double distance(const Vec3Array& a, const Vec3Array& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, (a[k] - b[k]).norm());
+  return most;
+}
+
+class Order : public testing::TestWithParam<std::pair<Integrator, double>> {};
+
+}  // namespace
+
+// The error against the converged path falls as step^order: halving the step four times over must show it within a sixth. The
+// reference is the explicit midpoint rule at a hundredth of the finest step, an independent method.
+TEST_P(Order, IsAsClaimed) {
+  const auto [integrator, order] = GetParam();
+  const Setting s = settling_triplet();
+  const double duration = 0.4;
+  const Vec3Array reference = after(s, Integrator::ExplicitMidpoint, duration / 12800, 12800);
+  const double coarse = distance(after(s, integrator, duration / 32, 32), reference);
+  const double fine = distance(after(s, integrator, duration / 128, 128), reference);
+  EXPECT_GT(coarse, 1e-9);  // um: there is an error to speak of
+  EXPECT_NEAR(std::log2(coarse / fine) / 2, order, order / 6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Order,
+                         testing::Values(std::pair{Integrator::ExplicitEuler, 1.0}, std::pair{Integrator::LinearlyImplicit, 1.0},
+                                         std::pair{Integrator::NewtonImplicit, 1.0}, std::pair{Integrator::ExplicitMidpoint, 2.0},
+                                         std::pair{Integrator::Extrapolated, 2.0}));
+
+// A pair pressed together by a load that would carry it through itself in one step: the Newton and the extrapolated step keep
+// it open at the length asked for, the linearly implicit one takes a shorter step, the explicit ones refuse.
+TEST(Integrators, LongStepsNeverOverlap) {
+  Setting s;
+  s.problem = test::empty_problem();
+  s.problem.interactions.gravity = forces::GravityParameters{1e4};  // closes the gap by e^7 in the step
+  test::add_particle(s.problem, s.position, 0.5, Vec3(50, 50, 50));
+  test::add_particle(s.problem, s.position, 0.5, Vec3(50, 50, 51.05));
+  s.problem.particles.mass[0] = 1e-3 * Particles::sphere_volume(0.5);
+  for (Integrator integrator : {Integrator::NewtonImplicit, Integrator::Extrapolated, Integrator::LinearlyImplicit}) {
+    s.problem.stepping.integrator = integrator;
+    s.problem.stepping.time_step = 1.0;
+    stepping::RunState state = stepping::initial_state(s.problem, s.position);
+    stepping::Stepper stepper(s.problem, state);
+    const stepping::StepReport report = stepper.advance(state, 1.0);
+    EXPECT_GT((state.position[1] - state.position[0]).norm(), 1.0);
+    if (integrator == Integrator::LinearlyImplicit) EXPECT_LT(report.step, 1.0);
+    else EXPECT_EQ(report.step, 1.0);
+  }
+  for (Integrator integrator : {Integrator::ExplicitEuler, Integrator::ExplicitMidpoint}) {
+    s.problem.stepping.integrator = integrator;
+    stepping::RunState state = stepping::initial_state(s.problem, s.position);
+    stepping::Stepper stepper(s.problem, state);
+    EXPECT_THROW(stepper.advance(state, 1.0), NumericsError);
+  }
+}
+
+// The controlled step's error, measured against a far tighter run, is of the order of what was asked for.
+TEST(Integrators, ToleranceBoundsTheError) {
+  for (Integrator integrator : {Integrator::NewtonImplicit, Integrator::Extrapolated}) {
+    Vec3Array end[2];
+    for (int k = 0; k < 2; ++k) {
+      Setting s = settling_triplet();
+      s.problem.stepping.integrator = integrator;
+      s.problem.stepping.tolerance = k == 0 ? 1e-2 : 1e-6;
+      stepping::RunState state = stepping::initial_state(s.problem, s.position);
+      stepping::Stepper stepper(s.problem, state);
+      while (state.time < 0.4) stepper.advance(state, 0.4 - state.time);
+      end[k] = state.position;
+    }
+    // 1e-2 of gap + Debye length (20 nm and more) a step, first-order errors adding up over some tens of steps.
+    EXPECT_LT(distance(end[0], end[1]), 0.3 * 0.02);
+    EXPECT_GT(distance(end[0], end[1]), 0);
+  }
+}
