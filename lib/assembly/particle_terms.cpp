@@ -8,12 +8,16 @@
 
 namespace pigment::assembly {
 
-double StepAssembly::wall_resistance(int k) const {
+resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
   const double a = radius_[k], gap = resistance::hydrodynamic_gap(position_[k].z() - a, a);
-  double value = resistance::wall_term(interactions_.hydrodynamics, a, gap).perpendicular;
+  resistance::SqueezeStep s{resistance::wall_term(interactions_.hydrodynamics, a, gap).perpendicular, 0};
   const double guess = substrate_geometry_[k].gap;
-  if (guess != position_[k].z() - a && guess > 0 && gap > 0) value += resistance::wall_step_average_increment(a, gap, guess);
-  return value;
+  if (guess != position_[k].z() - a && guess > 0 && gap > 0) {
+    const resistance::SqueezeStep step = resistance::squeeze_step(a, gap, guess);  // 6 pi a^2/h: a pair's with R = a
+    s.coefficient += step.coefficient;
+    s.impulse = step.impulse;
+  }
+  return s;
 }
 
 StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
@@ -63,7 +67,9 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
     if (interactions_.substrate) {
       if (interactions_.lubrication()) {
         const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, position_[k].z() - a);
-        const double perpendicular = mu * wall_resistance(k);
+        const resistance::SqueezeStep squeeze = wall_squeeze(k);
+        const double perpendicular = mu * squeeze.coefficient;
+        f[2] += mu * squeeze.impulse / dt_;
         t.along += perpendicular;
         t.across += mu * w.parallel;
         t.coupling += mu * w.coupling;
@@ -124,7 +130,10 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
       const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
       total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - substrate_geometry_[k].gap);
       const bool uniform = interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform;
-      if (interactions_.lubrication()) total.substrate -= mu * wall_resistance(k) * (uz + (uniform ? film_.absorption : 0));
+      if (interactions_.lubrication()) {
+        const resistance::SqueezeStep squeeze = wall_squeeze(k);
+        total.substrate += mu * (squeeze.impulse / dt_ - squeeze.coefficient * (uz + (uniform ? film_.absorption : 0)));
+      }
     }
   }
   total.surface /= cell_.area();

@@ -16,7 +16,7 @@ constexpr double largest_fall = 0.2;
 
 // Whether a gap came out far from what the system was linearised about.
 bool off_guess(double gap, double guess, bool refined) {
-  return refined ? std::abs(gap - guess) > 0.1 * guess : gap < 0.5 * guess;
+  return refined ? std::abs(gap - guess) > 0.05 * guess : gap < 0.5 * guess;
 }
 
 double next_guess(double gap, double guess) { return std::max(gap, largest_fall * guess); }
@@ -130,13 +130,8 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
     const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
-    const double f = force[p - begin] + k * (guess - gap_begin_[p]);
+    double f = force[p - begin] + k * (guess - gap_begin_[p]);
     const std::int32_t target = topology_.target(p);
-    if (f != 0)
-      for (int d = 0; d < 3; ++d) {
-        rhs[static_cast<std::size_t>(i) * D + d] -= f * n[d];
-        rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
-      }
     const resistance::PairScalars& s = scalars_[p];
     double viscous = s.squeeze;
     if (viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
@@ -144,8 +139,15 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
       const double smaller = std::min(g.radius_a, g.radius_b);
       const double weight = resistance::taper(gap_begin_[p] / smaller, interactions_.hydrodynamics.taper.squeeze_begin,
                                               interactions_.hydrodynamics.taper.squeeze_end);
-      viscous += weight * resistance::squeeze_step_average_increment(g.reduced_radius(), gap_begin_[p], guess);
+      const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess);
+      viscous += weight * step.coefficient;
+      f += mu * weight * step.impulse / dt_;
     }
+    if (f != 0)
+      for (int d = 0; d < 3; ++d) {
+        rhs[static_cast<std::size_t>(i) * D + d] -= f * n[d];
+        rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
+      }
     const double total = mu * viscous + dt_ * k;
     if (s.shear > 0) {
       const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);

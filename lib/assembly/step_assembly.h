@@ -2,10 +2,10 @@
 // The linear system of one step: (R + dt K) U = F, built at positions x0 for a step of length dt.
 //
 // Every term that is stiff in a gap is taken at the end of the step, linearised about a guess of that gap: the force as
-// f(h*) - k (h1 - h*), k its stiffness where it is positive, the singular squeeze resistance as its average from h0 to h*.
-// The first guess is the gap at the beginning; a step in which some gap closes quickly, or the free surface catches or
-// releases particles, is solved again with the gaps that came out (refine). The averaged resistance diverges as h* -> 0, so
-// that no gap crosses zero.
+// f(h*) - k (h1 - h*), k its stiffness where it is positive, the singular squeeze resistance by Newton's linearisation of its
+// impulse over the step, c ln(h0/h1) (resistance/pair_lubrication.h). The first guess is the gap at the beginning; a step in
+// which some gap closes quickly, or the free surface catches or releases particles, is solved again with the gaps that came out
+// (refine). The impulse diverges as h1 -> 0, so that no gap crosses zero.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +14,7 @@
 #include "assembly/slice_flow.h"
 #include "model/particles.h"
 #include "neighbours/neighbour_list.h"
+#include "resistance/pair_lubrication.h"
 #include "solve/pair_system.h"
 
 namespace pigment::assembly {
@@ -82,7 +83,7 @@ class StepAssembly {
   void pair_terms(int chunk, solve::PairSystem&, double* rhs) const;
   SurfaceState surface_state(int k) const;
   SubstrateState substrate_state(int k) const;
-  double wall_resistance(int k) const;
+  resistance::SqueezeStep wall_squeeze(int k) const;  // the whole perpendicular term of the substrate
 
   const Interactions& interactions_;
   Cell cell_;

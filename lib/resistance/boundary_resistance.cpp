@@ -61,11 +61,4 @@ BoundaryScalars free_surface_increment(double a, double gap) {
           stokes_torque(a) * value(surface_twist, x, log_term), stokes_torque(a) * value(surface_rolling, x, log_term)};
 }
 
-double wall_step_average_increment(double a, double gap_begin, double gap_end) {
-  return squeeze_step_average_increment(a, gap_begin, gap_end);  // 6 pi a^2/h: the pair's R -> a
-}
-double free_surface_step_average_increment(double a, double gap_begin, double gap_end) {
-  return 0.25 * squeeze_step_average_increment(a, gap_begin, gap_end);
-}
-
 }  // namespace pigment::resistance

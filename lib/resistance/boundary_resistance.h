@@ -26,9 +26,4 @@ BoundaryScalars free_surface_increment(double radius, double gap);
 double stokes_drag(double radius);
 double stokes_torque(double radius);
 
-// Step average of the singular part of the perpendicular increment, as for a pair: what it adds to the value at
-// gap_begin.
-double wall_step_average_increment(double radius, double gap_begin, double gap_end);
-double free_surface_step_average_increment(double radius, double gap_begin, double gap_end);
-
 }  // namespace pigment::resistance

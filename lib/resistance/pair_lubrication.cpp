@@ -99,12 +99,11 @@ PairOperatorScalars operator_scalars(const PairScalars& k, double radius_i, doub
   return {k.squeeze, k.twist, k.shear + t * (t * k.pump - 2 * k.shear_pump), t * k.pump - k.shear_pump, k.pump};
 }
 
-double squeeze_step_average_increment(double R, double gap_begin, double gap_end) {
-  const double change = gap_begin - gap_end;
-  // ln(h0/h1)/(h0 - h1) - 1/h0; by its series where the difference is small, to keep all digits.
-  const double y = change / gap_begin;
-  const double average = std::abs(y) < 1e-4 ? (1 + y * (0.5 + y / 3)) / gap_begin : -std::log1p(-y) / change;
-  return 6 * pi * R * R * (average - 1 / gap_begin);
+SqueezeStep squeeze_step(double R, double gap_begin, double gap_guess) {
+  const double c = 6 * pi * R * R, y = (gap_begin - gap_guess) / gap_guess;  // h0/g = 1 + y
+  // ln(1 + y) - y, by its series where y is small, to keep all digits.
+  const double rest = std::abs(y) < 1e-4 ? y * y * (-0.5 + y / 3) : std::log1p(y) - y;
+  return {c * y / gap_begin, c * rest};
 }
 
 }  // namespace pigment::resistance

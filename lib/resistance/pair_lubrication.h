@@ -47,8 +47,13 @@ PairScalars pair_scalars(double radius_i, double radius_j, double gap);
 PairScalars tapered_pair_scalars(double radius_i, double radius_j, double gap, const LubricationTaper&);
 PairOperatorScalars operator_scalars(const PairScalars&, double radius_i, double radius_j);
 
-// The leading singular part of the squeeze scalar, 6 pi R^2/h, averaged over a step that takes the gap from h0 to h1 is
-// 6 pi R^2 ln(h0/h1)/(h0 - h1). Returns what this adds to the value at h0. Both gaps > 0.
-double squeeze_step_average_increment(double reduced_radius, double gap_begin, double gap_end);
-
+// The impulse with which the leading singular part of the squeeze scalar, c/h with c = 6 pi R^2, resists a step from gap h0 to
+// h1 is c ln(h0/h1), which no gap can cross. Newton's linearisation of it about a guess g of h1, for a step of length dt:
+//   force = -(c/h0 + coefficient) dh/dt + impulse/dt,  coefficient = c (1/g - 1/h0),  impulse = c (ln(h0/g) + 1 - h0/g)
+// (c/h0 stands in the scalar already; the force repels where positive). All gaps > 0; times the viscosity.
+struct SqueezeStep {
+  double coefficient = 0;  // um
+  double impulse = 0;      // um^2
+};
+SqueezeStep squeeze_step(double reduced_radius, double gap_begin, double gap_guess);
 }  // namespace pigment::resistance

@@ -31,8 +31,13 @@ class Extrapolated final : public Integrator {
     const StepSolution second = context.solve({middle, first.protrusion, state.time + 0.5 * dt, 0.5 * dt, state.step},
                                               assembly::Treatment::Newton, std::move(second_guess));
     if (!take(a, second)) return a;
-    a.last.pressures.surface = 0.5 * (first.pressures.surface + second.pressures.surface);
-    a.last.pressures.substrate = 0.5 * (first.pressures.substrate + second.pressures.substrate);
+    // Extrapolated as the velocities are, so that the forces on the layer balance.
+    const auto extrapolate = [&](double assembly::BoundaryPressures::*p) {
+      a.last.pressures.*p = first.pressures.*p + second.pressures.*p - whole.pressures.*p;
+    };
+    extrapolate(&assembly::BoundaryPressures::surface);
+    extrapolate(&assembly::BoundaryPressures::substrate);
+    extrapolate(&assembly::BoundaryPressures::liquid);
 
     std::vector<double> mean(whole.velocity.size()), better(whole.velocity.size());
     for (std::size_t q = 0; q < mean.size(); ++q) {

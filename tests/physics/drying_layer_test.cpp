@@ -133,6 +133,7 @@ TEST(DryingLayer, SameBytesAtAnyThreadCountAndHoweverOftenInterrupted) {
 TEST(DryingLayer, ForcesBalance) {
   SmallLayer small = small_layer(false);
   small.problem.dewatering.absorption_flux = {0, 0, 0};  // evaporation alone: no drag but that of particles through liquid
+  small.problem.stepping.integrator = stepping::SteppingParameters::Integrator::NewtonImplicit;  // its velocities are one solve's
   small.problem.stepping.tolerance = 1e-4;
   small.problem.stepping.solver_tolerance = 1e-8;
   stepping::RunState state = stepping::initial_state(small.problem, small.position);
@@ -147,6 +148,11 @@ TEST(DryingLayer, ForcesBalance) {
   drag /= small.problem.cell.area();
   EXPECT_NEAR(report.pressures.surface, report.pressures.substrate + drag, 1e-4 * report.pressures.surface);
   EXPECT_GT(report.pressures.surface, 0);
+  // The extrapolated step reports pressures of the same kind, drag among them.
+  small.problem.stepping.integrator = stepping::SteppingParameters::Integrator::Extrapolated;
+  stepping::Stepper extrapolated(small.problem, state);
+  report = extrapolated.advance(state, 1);
+  EXPECT_NEAR(report.pressures.surface, report.pressures.substrate + report.pressures.liquid, 1e-4 * report.pressures.surface);
 }
 
 // Surface, substrate and the liquid that flows through carry what there is to carry: nothing. Absorption this time, and the

@@ -189,7 +189,7 @@ TEST(SliceFlow, SuspensionSettlesAtTheSourcesSpeed) {
     const Liquid liquid = liquid_at(in.liquid, 298.15);
     const auto list = neighbours::make_neighbour_list(cell, position, particles.radius, assembly::pair_range(in, liquid));
     assembly::StepAssembly step(in, particles, cell, list);
-    step.begin(position, {}, liquid, 0.01, true, {}, std::vector<double>(n, 0.0));
+    step.begin(position, {}, liquid, 0.01, assembly::Treatment::Newton, {}, std::vector<double>(n, 0.0));
     solve::PairSystem system;
     step.build(system);
     std::vector<double> u;

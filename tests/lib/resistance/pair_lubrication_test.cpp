@@ -113,17 +113,23 @@ TEST(PairLubrication, ExchangingTheSpheresChangesOnlyTheSignOfTheCoupling) {
   EXPECT_DOUBLE_EQ(a.shear_pump, -b.shear_pump);
 }
 
-TEST(PairLubrication, StepAverageIsTheMeanOfTheSingularTerm) {
-  // Trapezoidal mean of 6 pi R^2/h over [h1, h0], 10^5 intervals: error 1e-9 relative.
-  const double R = 0.3, h0 = 0.02, h1 = 0.005;
-  double mean = 0;
-  const int n = 100000;
-  for (int k = 0; k <= n; ++k) {
-    const double h = h0 + (h1 - h0) * k / n;
-    mean += (k == 0 || k == n ? 0.5 : 1) / h / n;
+// A gap pressed shut with a constant force F against 6 pi R^2/h alone is h0 exp(-F t/c) after t: Newton's iteration with the
+// linearised impulse must land there, from a first guess that is seven factors of e off.
+TEST(PairLubrication, NewtonOnTheImpulseClosesAGapExponentially) {
+  const double R = 0.3, h0 = 0.02, c = 6 * pi * R * R, dt = 0.1, force = 7 * c / dt;
+  double guess = h0;
+  for (int k = 0; k < 40; ++k) {
+    const SqueezeStep s = squeeze_step(R, h0, guess);
+    // (c/h0 + coefficient) dh/dt = -F + impulse/dt
+    const double h = h0 + dt * (s.impulse / dt - force) / (c / h0 + s.coefficient);
+    guess = std::max(h, 0.2 * guess);
   }
-  EXPECT_NEAR(squeeze_step_average_increment(R, h0, h1), 6 * pi * R * R * (mean - 1 / h0), 1e-6);
-  // The series for small changes meets the logarithm.
-  const double near = squeeze_step_average_increment(R, h0, h0 * (1 - 0.99e-4)), far = squeeze_step_average_increment(R, h0, h0 * (1 - 1.01e-4));
-  EXPECT_NEAR(near / 0.99, far / 1.01, 1e-6 * std::abs(far) + 1e-5 * std::abs(near));
+  EXPECT_NEAR(guess, h0 * std::exp(-7.0), 1e-10 * guess);
+}
+TEST(PairLubrication, ImpulseIsSmoothWhereItsSeriesTakesOver) {
+  const double R = 0.3, h0 = 0.02;
+  const double near = squeeze_step(R, h0, h0 / (1 + 0.99e-4)).impulse, far = squeeze_step(R, h0, h0 / (1 + 1.01e-4)).impulse;
+  EXPECT_NEAR(near / (0.99 * 0.99), far / (1.01 * 1.01), 1e-5 * std::abs(far));  // -c y^2/2 and a term of relative size y
+  EXPECT_EQ(squeeze_step(R, h0, h0).impulse, 0);
+  EXPECT_EQ(squeeze_step(R, h0, h0).coefficient, 0);
 }
