@@ -72,10 +72,13 @@ void run(const Options& options, std::filesystem::path output) {
     std::string object = options.dataset;
     if (!object.empty() && object.front() != '/') object.insert(0, "/");
     while (object.size() > 1 && object.back() == '/') object.pop_back();
-    const std::string left_out = io::export_csv(options.input, object, output);
-    if (!left_out.empty())
+    const io::CsvLeftOut left_out = io::export_csv(options.input, object, output);
+    if (!left_out.other_rows.empty())
       warning(fmt::format("{}: left out, for they have another number of rows: {}; --dataset writes one",
-                          output.string(), left_out));
+                          output.string(), left_out.other_rows));
+    if (!left_out.too_wide.empty())
+      warning(fmt::format("{}: left out, for they have more than 1000 columns: {}; --dataset writes one",
+                          output.string(), left_out.too_wide));
   } else {
     const io::ParticleFile particles(options.input);
     if (format == "xdmf") io::export_xdmf(particles, output);

@@ -23,9 +23,12 @@ void export_h5md(const ParticleFile&, const std::filesystem::path& output);
 // Spreadsheets: the one-dimensional datasets of a group side by side (value of a time-dependent element), and
 // the columns of two-dimensional ones, each headed "name [unit]" in SI; or one dataset. `object` is a path in
 // the file; empty: /observables of a trajectory, /particles/layer of a packing, else the group that the file
-// is about. Throws FileError where nothing there can stand in a table. Returns what was left out because it
-// has another number of rows, for a message; empty where nothing was.
-std::string export_csv(const std::filesystem::path& input, const std::string& object,
+// is about. Throws FileError where nothing there can stand in a table. Returns the names of what was left out of a
+// group, for a message: for its number of rows, or for its more than 1000 columns.
+struct CsvLeftOut {
+  std::string other_rows, too_wide;
+};
+CsvLeftOut export_csv(const std::filesystem::path& input, const std::string& object,
                        const std::filesystem::path& output);
 
 }  // namespace pigment::io

@@ -15,6 +15,16 @@ struct Column {
   std::vector<double> values;
 };
 
+// One dataset.
+struct Table {
+  std::string name;
+  std::vector<Column> columns;
+  std::size_t rows() const { return columns[0].values.size(); }
+};
+
+// A number a particle makes a table that no spreadsheet opens, beside what else its group holds.
+constexpr std::size_t most_columns = 1000;
+
 std::string heading(const h5::InputFile& file, const std::string& path, const std::string& name) {
   const std::string unit = unit_of(file, path);
   return fmt::format("{} [{}]", name, unit.empty() ? "1" : unit);
@@ -56,25 +66,26 @@ bool is_curve(const h5::InputFile& file, const std::string& element) {
   return file.is_dataset(element + "/value") && file.shape(element + "/value").size() == 1;
 }
 
-std::vector<std::vector<Column>> tables_below(const h5::InputFile& file, const std::string& object) {
-  std::vector<std::vector<Column>> tables;
-  const auto add = [&](std::vector<Column> columns) {
-    if (!columns.empty()) tables.push_back(std::move(columns));
+std::vector<Table> tables_below(const h5::InputFile& file, const std::string& object) {
+  std::vector<Table> tables;
+  const auto add = [&](const std::string& path, const std::string& name) {
+    std::vector<Column> columns = columns_of(file, path, name);
+    if (!columns.empty()) tables.push_back({name, std::move(columns)});
   };
   if (!file.is_group(object)) {
-    add(columns_of(file, object, last_name(object)));
+    add(object, last_name(object));
     return tables;
   }
   const auto names = file.children(object);
   // What the rest is a function of comes first.
   for (const char* first : {"time", "step"}) {
     if (file.is_dataset(object + "/" + first)) {
-      add(columns_of(file, object + "/" + first, first));
+      add(object + "/" + first, first);
     } else {
       for (const auto& name : names)  // that of the first time-dependent element
         if (const std::string element = object + "/" + name;
             is_curve(file, element) && file.is_dataset(element + "/" + first)) {
-          add(columns_of(file, element + "/" + first, first));
+          add(element + "/" + first, first);
           break;
         }
     }
@@ -83,17 +94,17 @@ std::vector<std::vector<Column>> tables_below(const h5::InputFile& file, const s
     const std::string path = object + "/" + name;
     if (name == "time" || name == "step") continue;
     if (file.is_dataset(path))
-      add(columns_of(file, path, name));
+      add(path, name);
     else if (is_curve(file, path) ||
              (file.is_dataset(path + "/value") && file.shape(path + "/value").size() == 3))
-      add(columns_of(file, path + "/value", name));
+      add(path + "/value", name);
   }
   return tables;
 }
 
 }  // namespace
 
-std::string export_csv(const std::filesystem::path& input, const std::string& object,
+CsvLeftOut export_csv(const std::filesystem::path& input, const std::string& object,
                        const std::filesystem::path& output) {
   const h5::InputFile file(input);
   const std::string path = object.empty() ? default_object(file) : object;
@@ -105,17 +116,23 @@ std::string export_csv(const std::filesystem::path& input, const std::string& ob
   for (const auto& table : tables) {
     const auto same =
         static_cast<std::size_t>(std::count_if(tables.begin(), tables.end(), [&](const auto& t) {
-          return t[0].values.size() == table[0].values.size();
+          return t.rows() == table.rows();
         }));
-    if (same > votes) votes = same, rows = table[0].values.size();
+    if (same > votes) votes = same, rows = table.rows();
   }
-  std::string left_out, line;
+  CsvLeftOut left_out;
+  std::string line;
   std::vector<const Column*> columns;
+  const auto leave_out = [](std::string& list, const Table& table) {
+    list += (list.empty() ? "" : ", ") + table.name;
+  };
   for (const auto& table : tables) {
-    if (table[0].values.size() == rows)
-      for (const auto& column : table) columns.push_back(&column);
+    if (table.rows() != rows)
+      leave_out(left_out.other_rows, table);
+    else if (table.columns.size() > most_columns && tables.size() > 1)
+      leave_out(left_out.too_wide, table);
     else
-      left_out += (left_out.empty() ? "" : ", ") + table[0].heading.substr(0, table[0].heading.find(" ["));
+      for (const auto& column : table.columns) columns.push_back(&column);
   }
   TextFile out(output);
   for (const auto* column : columns) line += (line.empty() ? "" : ",") + column->heading;

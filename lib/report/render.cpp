@@ -7,17 +7,13 @@
 #include <numbers>
 
 #include "report/occlusion.h"
+#include "report/ray.h"
 
 namespace pigment::report {
 namespace {
 
 constexpr int tile_size = 32;  // pixels
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double radians = std::numbers::pi / 180;
-
-struct Ray {
-  Vec3 origin, direction;
-};
 
 Ray ray_through(const Camera& c, const RenderSettings& s, double x, double y) {
   const double scale = c.width / s.width;
@@ -26,71 +22,6 @@ Ray ray_through(const Camera& c, const RenderSettings& s, double x, double y) {
   if (c.eye_distance <= 0) return {on_plane, c.forward};
   const Vec3 eye = c.target - c.eye_distance * c.forward;
   return {eye, (on_plane - eye).normalized()};
-}
-
-struct Interval {
-  double begin = -infinity, end = infinity;
-  int begin_face = -1;  // cutting plane (or axis of a box) that opens it
-};
-
-// The part of the ray that no cutting plane takes away.
-Interval kept_part(const Ray& ray, const std::vector<CuttingPlane>& cuts, bool perspective) {
-  Interval kept;
-  if (perspective) kept.begin = 0;
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const double speed = cuts[i].normal.dot(ray.direction),
-                 distance = cuts[i].offset - cuts[i].normal.dot(ray.origin);
-    if (std::abs(speed) < 1e-12) {
-      if (distance < 0) kept.end = -infinity;
-    } else if (speed < 0) {
-      if (distance / speed > kept.begin) kept = {distance / speed, kept.end, static_cast<int>(i)};
-    } else {
-      kept.end = std::min(kept.end, distance / speed);
-    }
-  }
-  return kept;
-}
-
-Interval through_box(const Ray& ray, const Box& box) {
-  Interval inside;
-  for (int k = 0; k < 3; ++k) {
-    if (std::abs(ray.direction[k]) < 1e-12) {
-      if (ray.origin[k] < box.lower[k] || ray.origin[k] > box.upper[k]) return {0, -1, -1};
-      continue;
-    }
-    double a = (box.lower[k] - ray.origin[k]) / ray.direction[k],
-           b = (box.upper[k] - ray.origin[k]) / ray.direction[k];
-    if (a > b) std::swap(a, b);
-    if (a > inside.begin) inside = {a, inside.end, k};
-    inside.end = std::min(inside.end, b);
-  }
-  return inside;
-}
-
-Interval through_sphere(const Ray& ray, const Sphere& s) {
-  const Vec3 to_centre = s.centre - ray.origin;
-  const double along = to_centre.dot(ray.direction);
-  const double miss2 = (to_centre - along * ray.direction).squaredNorm();
-  const double half2 = s.radius * s.radius - miss2;
-  if (half2 < 0) return {0, -1, -1};
-  const double half = std::sqrt(half2);
-  return {along - half, along + half, -1};
-}
-
-// A cylinder without caps (its ends lie inside spheres).
-Interval through_rod(const Ray& ray, const Connection& rod) {
-  const Vec3 axis = rod.to - rod.from;
-  const double length = axis.norm();
-  if (length <= 0) return {0, -1, -1};
-  const Vec3 u = axis / length, d = ray.direction - ray.direction.dot(u) * u;
-  const Vec3 o = (ray.origin - rod.from) - (ray.origin - rod.from).dot(u) * u;
-  const double a = d.squaredNorm(), b = o.dot(d), c = o.squaredNorm() - rod.radius * rod.radius;
-  const double root2 = b * b - a * c;
-  if (a < 1e-14 || root2 < 0) return {0, -1, -1};
-  const double near = (-b - std::sqrt(root2)) / a;
-  const double height = (ray.origin + near * ray.direction - rod.from).dot(u);
-  if (height < 0 || height > length) return {0, -1, -1};
-  return {near, (-b + std::sqrt(root2)) / a, -1};
 }
 
 // What a sample sees. `object`: sphere index; then connections; then the substrate; nothing.

@@ -64,12 +64,12 @@ TEST(Export, CsvStandsDatasetsSideBySide) {
                       Dataset::Storage::Float64},
                      {"/solids/edges", {3}, {0, 1, 2}, Dimension::Length, Dataset::Storage::Float64}};
   write_result(input, result);
-  EXPECT_EQ(export_csv(input, "", output), "edges");
+  EXPECT_EQ(export_csv(input, "", output).other_rows, "edges");
   EXPECT_EQ(bytes_of(output), "time [s],fraction_0 [1],fraction_1 [1]\n0,0.1,0.2\n0.5,0.3,0.4\n");
-  EXPECT_EQ(export_csv(input, "/solids/edges", output), "");
+  EXPECT_EQ(export_csv(input, "/solids/edges", output).other_rows, "");
   EXPECT_EQ(bytes_of(output), "edges [m]\n0\n1e-06\n2e-06\n");
   EXPECT_THROW(export_csv(input, "/solids/absent", output), FileError);
-  EXPECT_EQ(export_csv(packing(folder), "", output), "");
+  EXPECT_EQ(export_csv(packing(folder), "", output).other_rows, "");
   const std::string table = bytes_of(output);
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "id [1],mass [kg],position_0 [m],position_1 [m],position_2 [m],radius [m],species [1]");
