@@ -30,7 +30,13 @@ double ParticleColours::position(double v) const {
 }
 
 Ticks scale_ticks(const ParticleColours& c, int wanted) {
-  if (!c.logarithmic || !(c.high > c.low)) return linear_ticks(c.low, c.high, wanted);
+  if (!c.logarithmic || !(c.high > c.low)) {
+    // One number alone says nothing of a scale; round steps may leave as few.
+    Ticks ticks = linear_ticks(c.low, c.high, wanted);
+    for (int more = wanted + 1; c.high > c.low && ticks.values.size() < 3 && more <= 3 * wanted; ++more)
+      ticks = linear_ticks(c.low, c.high, more);
+    return ticks;
+  }
   Ticks ticks = logarithmic_ticks(c.low, c.high);
   std::erase_if(ticks.values, [&](double v) { return c.position(v) < 0.12 || c.position(v) > 0.88; });
   ticks.values.insert(ticks.values.begin(), c.low);

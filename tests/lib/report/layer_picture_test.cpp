@@ -215,6 +215,15 @@ TEST(LayerPicture, HiddenParticlesLeaveNoTrace) {
   EXPECT_NE(none.rgb, draw_layer(layer, colours, s).rgb);
 }
 
+TEST(ParticleColours, ScalesSayMoreThanOneNumber) {
+  for (const double low : {0.0, 3.0, 17.2})
+    for (const double high : {19.0, 35.0, 99.0}) {
+      ParticleColours c{"speed", "", {}, low, high, false, {}};
+      EXPECT_GE(scale_ticks(c, 3).values.size(), 3u) << low << " to " << high;
+      EXPECT_LE(scale_ticks(c, 3).values.size(), 8u);
+    }
+}
+
 TEST(ParticleColours, OfClustersKeepThoseAloneApart) {
   const auto by_size = colours_by_cluster({1, 2, 40});
   EXPECT_EQ(by_size.low, 2);
