@@ -117,6 +117,22 @@ void add_structure(io::ResultFile& result, const app::AnalysisInput& input) {
       io::column("/solids/local/particle_id", Dimension::Number, input.particles().id, Storage::Int64));
   add_local("cell_volume", Dimension::Volume, &LocalSolids::cell_volume, Storage::Float64);
   add_local("solids_fraction", Dimension::VolumeFraction, &LocalSolids::solids_fraction, Storage::Float32);
+  add_local("surrounding_fraction", Dimension::VolumeFraction, &LocalSolids::surrounding_fraction,
+            Storage::Float32);
+  const ColumnGrid columns = columns_of(input.file->layer(0).cell, parameters.envelope_column);
+  std::vector<analysis::LocalCake> cakes;
+  for (std::size_t k = 0; k < frames.count; ++k)
+    cakes.push_back(analysis::local_cake(frames.read(k), radius, local[k], parameters.cake_solids,
+                                         parameters.wall_layer, columns));
+  io::Dataset height = io::column(
+      "/solids/local/cake_height", Dimension::Length, cakes,
+      [](const analysis::LocalCake& c) -> const auto& { return c.height; }, Storage::Float32);
+  height.shape = {cakes.size(), columns.x, columns.y};
+  result.datasets.push_back(std::move(height));
+  result.datasets.push_back(io::column("/solids/local/mean_cake_height", Dimension::Length, cakes,
+                                       [](const analysis::LocalCake& c) { return c.mean_height; }));
+  result.datasets.push_back(io::column("/solids/local/cake_roughness", Dimension::Length, cakes,
+                                       [](const analysis::LocalCake& c) { return c.roughness; }));
   add_local("cell_neighbours", Dimension::Number, &LocalSolids::cell_neighbours, Storage::Int64);
 
   using analysis::Pores;

@@ -1,7 +1,6 @@
 #include "analysis/clusters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -49,11 +48,9 @@ void measure_cake(Clusters& result, const Snapshot& frame, const std::vector<dou
     cake_radius.push_back(radius[i]);
   }
   result.cake_height = top_of_columns(frame.cell, position, cake_radius, columns);
-  const auto count = static_cast<double>(columns.count());
-  double squares = 0;
-  for (const double h : result.cake_height) result.mean_cake_height += h / count;
-  for (const double h : result.cake_height) squares += std::pow(h - result.mean_cake_height, 2);
-  result.cake_roughness = std::sqrt(squares / count);
+  const Spread spread = spread_of(result.cake_height);
+  result.mean_cake_height = spread.mean;
+  result.cake_roughness = spread.deviation;
 }
 
 }  // namespace

@@ -112,8 +112,7 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
   p.z99 = height_below_which(0.99, frame.position, solids.radius);
   if (columns.count() == 0) columns = columns_of(frame.cell, parameters.envelope_column);
   p.top_height = top_of_columns(frame.cell, frame.position, solids.radius, columns);
-  p.top_envelope = std::accumulate(p.top_height.begin(), p.top_height.end(), 0.0) /
-                   static_cast<double>(columns.count());
+  p.top_envelope = spread_of(p.top_height).mean;
   p.protruding_fraction = protruding_fraction(height, frame.position, solids.radius);
   p.cake_thickness =
       dense_thickness(p.edges, p.volume_fraction, parameters.cake_solids, parameters.wall_layer);

@@ -118,10 +118,19 @@ std::vector<double> top_of_columns(const Cell& cell, const Vec3Array& position, 
 
 double top_envelope(const Cell& cell, const Vec3Array& position, const std::vector<double>& radius,
                     double column) {
-  const ColumnGrid columns = columns_of(cell, column);
-  double sum = 0;
-  for (double height : top_of_columns(cell, position, radius, columns)) sum += height;
-  return sum / static_cast<double>(columns.count());
+  return spread_of(top_of_columns(cell, position, radius, columns_of(cell, column))).mean;
+}
+
+Spread spread_of(const std::vector<double>& values) {
+  Spread spread;
+  if (values.empty()) return spread;
+  const auto count = static_cast<double>(values.size());
+  for (const double v : values) spread.mean += v;
+  spread.mean /= count;
+  double squares = 0;
+  for (const double v : values) squares += (v - spread.mean) * (v - spread.mean);
+  spread.deviation = std::sqrt(squares / count);
+  return spread;
 }
 
 NonAffineMotion non_affine_motion(const Vec3Array& position, const std::vector<double>& value, double height,

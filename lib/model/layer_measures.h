@@ -52,6 +52,11 @@ ColumnGrid columns_of(const Cell&, double column);
 std::vector<double> top_of_columns(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
                                    const ColumnGrid&);
 
+struct Spread {
+  double mean = 0, deviation = 0;  // standard deviation over all of them
+};
+Spread spread_of(const std::vector<double>& values);  // zeros without any
+
 // Mean of the top over columns of about `column` um.
 double top_envelope(const Cell&, const Vec3Array& position, const std::vector<double>& radius,
                     double column = 0.25);

@@ -82,5 +82,64 @@ TEST(LocalSolids, OfOneSphereAreThoseOfTheLayer) {
   EXPECT_TRUE(local_solids({0, {2, 2, 2}, {}}, {}).cell_volume.empty());
 }
 
+// Touching spheres of 1 um on a cubic lattice, 6 high where x < 5 and 3 high elsewhere, below a lattice of twice the
+// spacing that is an eighth as dense.
+Snapshot planted_cake() {
+  Snapshot frame;
+  frame.cell = {10, 6, 14};
+  for (int x = 0; x < 10; ++x)
+    for (int y = 0; y < 6; ++y) {
+      const int high = x < 5 ? 6 : 3;
+      for (int z = 0; z < high; ++z) frame.position.push_back({x + 0.5 + 10, y + 0.5 - 6, z + 0.5});
+      if (x % 2 == 0 && y % 2 == 0)
+        for (int z = high + 1; z < 14; z += 2) frame.position.push_back({x + 0.5, y + 0.5, z + 0.5});
+    }
+  return frame;
+}
+
+TEST(LocalCake, IsThatOfAPlantedOne) {
+  const Snapshot frame = planted_cake();
+  const std::vector<double> radius(frame.position.size(), 0.5);
+  const LocalSolids local = local_solids(frame, radius);
+  const ColumnGrid columns{10, 6};  // axes through the middles
+  const LocalCake cake = local_cake(frame, radius, local, 0.4, 1, columns);
+  ASSERT_EQ(cake.height.size(), 60u);
+  const auto mean_where = [&](std::size_t first, std::size_t last) {
+    double sum = 0;
+    for (std::size_t x = first; x <= last; ++x)
+      for (std::size_t y = 0; y < 6; ++y) sum += cake.height[6 * x + y] / static_cast<double>(6 * (last - first + 1));
+    return sum;
+  };
+  // Away from the step, which is at x = 5 and x = 0; the last layer or two have the dilute part beside them.
+  EXPECT_LE(mean_where(2, 2), 6);
+  EXPECT_GE(mean_where(2, 2), 4.9);
+  EXPECT_NEAR(mean_where(2, 2) - mean_where(7, 7), 3, 1e-9);  // the same bias on both sides
+  EXPECT_GT(cake.roughness, 0.8);
+  EXPECT_NEAR(cake.mean_height, 0.5 * (mean_where(0, 4) + mean_where(5, 9)), 1e-9);
+  // Denser than any: no cake. Its spheres fill pi/6 = 0.52.
+  EXPECT_EQ(local_cake(frame, radius, local, 0.6, 1, columns).mean_height, 0);
+}
+
+TEST(LocalCake, DoesNotCountWhatIsDenseElsewhere) {
+  // The same upside down: dense below the surface only, nothing hangs together with the substrate.
+  Snapshot frame = planted_cake();
+  for (Vec3& p : frame.position) p.z() = frame.cell.height - p.z();
+  const std::vector<double> radius(frame.position.size(), 0.5);
+  const LocalSolids local = local_solids(frame, radius);
+  EXPECT_EQ(local_cake(frame, radius, local, 0.4, 1, {10, 6}).mean_height, 0);
+}
+
+TEST(LocalSolids, SurroundingIsTheCellAndThoseBesideIt) {
+  // Two spheres alone: each one's surrounding is the whole layer.
+  Snapshot frame;
+  frame.cell = {5, 5, 7};
+  frame.position = {{1, 1, 1.2}, {1, 1, 4.5}};
+  const LocalSolids l = local_solids(frame, {1, 2});
+  const double solids = 4.0 / 3 * std::numbers::pi * (1 + 8) / (5 * 5 * 7);
+  EXPECT_NEAR(l.surrounding_fraction[0], solids, 1e-9);
+  EXPECT_NEAR(l.surrounding_fraction[1], solids, 1e-9);
+  EXPECT_EQ(l.neighbour, (std::vector<std::int32_t>{1, 0}));
+}
+
 }  // namespace
 }  // namespace pigment::analysis
