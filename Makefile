@@ -56,6 +56,7 @@ bench: configure
 # Wall times and errors of packing and stepping, as in docs/speed.md. Nothing else should run beside it.
 speed: build
 	workflows/speed/measure.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
+	workflows/speed/analyses.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
 
 install: build
 	DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)'
