@@ -121,8 +121,8 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
   std::fill(force.begin(), force.end(), 0.0);
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
   for (const auto& law : laws_) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
-  std::vector<solve::FullPair>& full = system.full[chunk];
-  std::vector<solve::SqueezePair>& squeeze = system.squeeze[chunk];
+  solve::FullPairs& full = system.full[chunk];
+  solve::SqueezePairs& squeeze = system.squeeze[chunk];
   full.clear();
   squeeze.clear();
   const double mu = liquid_.viscosity;
@@ -169,14 +169,15 @@ void StepAssembly::build(solve::PairSystem& system) const {
   system.full.resize(chunks);
   system.squeeze.resize(chunks);
   const std::size_t D = system.unknowns_per_particle();
-  std::vector<double> sum((n + topology_.halo_count()) * D);
+  const std::size_t halo = topology_.first_slot();
+  std::vector<double> sum((halo + topology_.halo_count()) * D);
   system.held.assign(interactions_.free_surface ? n : 0, 0);
   system.held_velocity.assign(interactions_.free_surface ? n : 0, 0.0);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
     for (int c = 0; c < chunks; ++c) {
-      for (std::size_t h = (n + topology_.halo_begin(c)) * D; h < (n + topology_.halo_begin(c + 1)) * D; ++h) sum[h] = 0;
+      for (std::size_t h = (halo + topology_.halo_begin(c)) * D; h < (halo + topology_.halo_begin(c + 1)) * D; ++h) sum[h] = 0;
       particle_terms(c, system, sum.data());
       pair_terms(c, system, sum.data());
     }
@@ -184,7 +185,7 @@ void StepAssembly::build(solve::PairSystem& system) const {
     for (int c = 0; c < chunks; ++c)
       for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k)
         for (const std::int32_t* slot = topology_.slots_begin(k); slot != topology_.slots_end(k); ++slot)
-          for (std::size_t d = 0; d < D; ++d) sum[k * D + d] += sum[(n + *slot) * D + d];
+          for (std::size_t d = 0; d < D; ++d) sum[k * D + d] += sum[(halo + *slot) * D + d];
   }
   sum.resize(n * D);
   system.right_hand_side = std::move(sum);

@@ -35,8 +35,8 @@ std::vector<std::int64_t> pack(const PairSystem& system) {
   std::vector<std::int64_t> out{system.rotation ? 1 : 0};
   put(out, system.held);
   put(out, system.particle);
-  for (const auto& chunk : system.full) put(out, chunk);
-  for (const auto& chunk : system.squeeze) put(out, chunk);
+  for (const auto& chunk : system.full) put(out, std::vector<FullPair>(chunk.begin(), chunk.end()));
+  for (const auto& chunk : system.squeeze) put(out, std::vector<SqueezePair>(chunk.begin(), chunk.end()));
   return out;
 }
 
@@ -48,8 +48,16 @@ PairSystem unpack(const std::vector<std::int64_t>& in, const PairTopology& topol
   system.squeeze.resize(topology.chunks().count());
   std::size_t at = take(in, 1, system.held);
   at = take(in, at, system.particle);
-  for (auto& chunk : system.full) at = take(in, at, chunk);
-  for (auto& chunk : system.squeeze) at = take(in, at, chunk);
+  for (auto& chunk : system.full) {
+    std::vector<FullPair> pairs;
+    at = take(in, at, pairs);
+    for (const FullPair& p : pairs) chunk.push_back(p);
+  }
+  for (auto& chunk : system.squeeze) {
+    std::vector<SqueezePair> pairs;
+    at = take(in, at, pairs);
+    for (const SqueezePair& p : pairs) chunk.push_back(p);
+  }
   return system;
 }
 

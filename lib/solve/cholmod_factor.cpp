@@ -31,6 +31,8 @@ struct CholmodFactor::Data {
 
 namespace {
 
+constexpr int at(int row, int column) { return row * (row + 1) / 2 + column; }  // of a diagonal block
+
 // Lower triangle, column by column of D x D blocks: the diagonal block of each particle, then one block for each pair (i, j)
 // with j below i, rows rising.
 template <int D>
@@ -41,7 +43,7 @@ cholmod_sparse* assemble(const PairSystem& system, cholmod_common* common) {
   const auto is_held = [&](std::size_t k) { return !system.held.empty() && system.held[k]; };
   for (std::size_t k = 0; k < n; ++k)
     if (is_held(k))
-      for (int d = 0; d < D; ++d) diagonal[k * D * D + 2 * D + d] = diagonal[k * D * D + d * D + 2] = d == 2 ? 1 : 0;
+      for (int d = 0; d < D; ++d) diagonal[k * (D * (D + 1) / 2) + at(std::max(d, 2), std::min(d, 2))] = d == 2 ? 1 : 0;
   struct Block {
     std::int32_t row;
     double value[D * D];  // column-major
@@ -76,21 +78,21 @@ cholmod_sparse* assemble(const PairSystem& system, cholmod_common* common) {
   auto* start = static_cast<int*>(a->p);
   auto* row = static_cast<int*>(a->i);
   auto* value = static_cast<double*>(a->x);
-  std::size_t at = 0;
+  std::size_t entry = 0;
   for (std::size_t k = 0; k < n; ++k)
     for (int d = 0; d < D; ++d) {
-      start[k * D + d] = static_cast<int>(at);
-      for (int r = d; r < D; ++r, ++at) {
-        row[at] = static_cast<int>(k * D + r);
-        value[at] = diagonal[k * D * D + r * D + d];
+      start[k * D + d] = static_cast<int>(entry);
+      for (int r = d; r < D; ++r, ++entry) {
+        row[entry] = static_cast<int>(k * D + r);
+        value[entry] = diagonal[k * (D * (D + 1) / 2) + at(r, d)];
       }
       for (const Block& b : columns[k])
-        for (int r = 0; r < D; ++r, ++at) {
-          row[at] = b.row * D + r;
-          value[at] = b.value[d * D + r];
+        for (int r = 0; r < D; ++r, ++entry) {
+          row[entry] = b.row * D + r;
+          value[entry] = b.value[d * D + r];
         }
     }
-  start[n * D] = static_cast<int>(at);
+  start[n * D] = static_cast<int>(entry);
   return a;
 }
 

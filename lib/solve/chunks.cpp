@@ -7,7 +7,9 @@ namespace pigment::solve {
 Chunks make_chunks(std::size_t particles) {
   const std::size_t count = std::max<std::size_t>(1, (particles + 255) / 256);
   Chunks chunks;
-  for (std::size_t c = 0; c <= count; ++c) chunks.begin.push_back(static_cast<int>(particles * c / count));
+  // In whole fours: the solver takes four particles at a time.
+  for (std::size_t c = 0; c < count; ++c) chunks.begin.push_back(static_cast<int>(particles * c / count / 4 * 4));
+  chunks.begin.push_back(static_cast<int>(particles));
   return chunks;
 }
 

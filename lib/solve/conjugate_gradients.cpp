@@ -2,51 +2,11 @@
 
 #include <cmath>
 
-#include "solve/pair_kernel.h"
+#include "solve/block_jacobi.h"
 
 namespace pigment::solve {
 
 namespace {
-
-// Cholesky factor of each D x D block, lower triangle row by row, with reciprocal diagonal.
-template <int D>
-struct BlockJacobi {
-  static constexpr int entries = D * (D + 1) / 2;
-  std::vector<double> factor;
-
-  explicit BlockJacobi(const PairSystem& system) {
-    std::vector<double> blocks = diagonal_blocks(system);
-    const std::size_t n = blocks.size() / (D * D);
-    factor.resize(n * entries);
-#pragma omp parallel for schedule(static)
-    for (std::size_t k = 0; k < n; ++k) {
-      double* a = &blocks[k * D * D];
-      if (!system.held.empty() && system.held[k])
-        for (int d = 0; d < D; ++d) a[2 * D + d] = a[d * D + 2] = d == 2 ? 1 : 0;
-      double* l = &factor[k * entries];
-      for (int r = 0; r < D; ++r)
-        for (int c = 0; c <= r; ++c) {
-          double sum = a[r * D + c];
-          for (int q = 0; q < c; ++q) sum -= l[r * (r + 1) / 2 + q] * l[c * (c + 1) / 2 + q];
-          l[r * (r + 1) / 2 + c] = r == c ? 1 / std::sqrt(sum) : sum * l[c * (c + 1) / 2 + c];
-        }
-    }
-  }
-  void solve(std::size_t k, const double* r, double* z) const {
-    const double* l = &factor[k * entries];
-    double y[D];
-    for (int i = 0; i < D; ++i) {
-      double sum = r[i];
-      for (int q = 0; q < i; ++q) sum -= l[i * (i + 1) / 2 + q] * y[q];
-      y[i] = sum * l[i * (i + 1) / 2 + i];
-    }
-    for (int i = D - 1; i >= 0; --i) {
-      double sum = y[i];
-      for (int q = i + 1; q < D; ++q) sum -= l[q * (q + 1) / 2 + i] * z[q];
-      z[i] = sum * l[i * (i + 1) / 2 + i];
-    }
-  }
-};
 
 double sum_of(const std::vector<double>& partial) {
   double sum = 0;
@@ -55,74 +15,63 @@ double sum_of(const std::vector<double>& partial) {
 }
 
 template <int D>
-SolveReport solve(const PairSystem& system, std::vector<double>& x, const ConjugateGradientOptions& options) {
+SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const ConjugateGradientOptions& options) {
+  constexpr int S = stride<D>;
   const PairTopology& topology = *system.topology;
-  const std::size_t n = topology.particles(), size = n * D;
+  const std::size_t n = topology.particles(), size = n * D, padded = input_size<D>(topology);
   const int count = topology.chunks().count();
-  const std::vector<double>& b = system.right_hand_side;
   // Held particles: their velocities are given, and what they contribute to the other rows joins b.
   const bool held = !system.held.empty();
-  bool guess = x.size() == size;
-  if (!guess) x.assign(size, 0.0);
-  std::vector<double> given;
+  bool guess = x_out.size() == size;
+  if (!guess) x_out.assign(size, 0.0);
+  std::vector<double> b(padded), x(padded), r(padded), z(padded), p(padded), ap(output_size<D>(topology));
+  to_strided<D>(system.right_hand_side, b);
+  if (guess) to_strided<D>(x_out, x);
+  std::vector<double> given(held ? padded : 0), scale(held ? ap.size() : 0);
   if (held) {
     guess = true;
-    given.assign(size, 0.0);
     for (std::size_t k = 0; k < n; ++k)
-      if (system.held[k]) x[k * D + 2] = given[k * D + 2] = system.held_velocity[k];
+      if (system.held[k]) x[k * S + 2] = given[k * S + 2] = system.held_velocity[k];
   }
   const BlockJacobi<D> preconditioner(system);
-  std::vector<double> r(size), z(size), p(size), ap((n + topology.halo_count()) * D);
-  std::vector<double> scale(held ? ap.size() : 0);
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count);
   SolveReport report;
   double rz = 0, bb = 0, target = 0;
   bool done = false;
+  const auto begin_of = [&](int c) { return topology.chunks().begin[c]; };
 #pragma omp parallel
   {
-    if (guess) {
+    // ap = A x, scale = A given
+    for (int which = 0; which < 2; ++which) {
+      if (which == 0 ? !guess : !held) continue;
+      const double* in = which == 0 ? x.data() : given.data();
+      double* out = which == 0 ? ap.data() : scale.data();
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, x.data(), ap.data(), sums);
+      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, in, out, sums);
       if (flows) {
 #pragma omp single
         sums.combine();
       }
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) gather_chunk<D>(system, c, ap.data(), sums);
-    }
-    if (held) {
-#pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, given.data(), scale.data(), sums);
-      if (flows) {
-#pragma omp single
-        sums.combine();
-      }
-#pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) gather_chunk<D>(system, c, scale.data(), sums);
+      for (int c = 0; c < count; ++c) finish_chunk<D>(system, c, false, in, out, sums);
     }
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) {
-      double own_bb = 0, own_rz = 0;
-      for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k) {
-        double s[D], zs[D];
-        for (int d = 0; d < D; ++d) s[d] = b[k * D + d] - (held ? scale[k * D + d] : 0.0);
-        if (held && system.held[k]) s[2] = 0;
-        preconditioner.solve(k, s, zs);
-        for (int d = 0; d < D; ++d) {
-          own_bb += s[d] * zs[d];
-          r[k * D + d] = b[k * D + d] - (guess ? ap[k * D + d] : 0.0);
-        }
-        if (held && system.held[k]) r[k * D + 2] = 0;
-        preconditioner.solve(k, &r[k * D], &z[k * D]);
-        for (int d = 0; d < D; ++d) {
-          own_rz += r[k * D + d] * z[k * D + d];
-          p[k * D + d] = z[k * D + d];
-        }
+      // z serves as room for b with the held velocities taken out, then for what it is named after.
+      const std::size_t begin = static_cast<std::size_t>(begin_of(c)) * S, end = static_cast<std::size_t>(begin_of(c + 1)) * S;
+      for (std::size_t q = begin; q < end; ++q) {
+        r[q] = b[q] - (held ? scale[q] : 0.0);
+        p[q] = b[q] - (guess ? ap[q] : 0.0);
       }
-      partial_bb[c] = own_bb;
-      partial_rz[c] = own_rz;
+      if (held)
+        for (int k = begin_of(c); k < begin_of(c + 1); ++k)
+          if (system.held[k]) r[static_cast<std::size_t>(k) * S + 2] = p[static_cast<std::size_t>(k) * S + 2] = 0;
+      partial_bb[c] = preconditioner.solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
+      for (std::size_t q = begin; q < end; ++q) r[q] = p[q];
+      partial_rz[c] = preconditioner.solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
+      for (std::size_t q = begin; q < end; ++q) p[q] = z[q];
     }
 #pragma omp single
     {
@@ -139,31 +88,15 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
         sums.combine();
       }
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) {
-        gather_chunk<D>(system, c, ap.data(), sums);
-        mask_held<D>(system, c, ap.data());
-        double own = 0;
-        for (int q = topology.chunks().begin[c] * D; q < topology.chunks().begin[c + 1] * D; ++q) own += p[q] * ap[q];
-        partial_pap[c] = own;
-      }
+      for (int c = 0; c < count; ++c) partial_pap[c] = finish_chunk<D>(system, c, held, p.data(), ap.data(), sums);
       const double alpha = rz / sum_of(partial_pap);
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) {
-        double own = 0;
-        for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k) {
-          for (int d = 0; d < D; ++d) {
-            x[k * D + d] += alpha * p[k * D + d];
-            r[k * D + d] -= alpha * ap[k * D + d];
-          }
-          preconditioner.solve(k, &r[k * D], &z[k * D]);
-          for (int d = 0; d < D; ++d) own += r[k * D + d] * z[k * D + d];
-        }
-        partial_rz[c] = own;
-      }
+      for (int c = 0; c < count; ++c)
+        partial_rz[c] = preconditioner.update(begin_of(c), begin_of(c + 1), alpha, p.data(), ap.data(), x.data(), r.data(), z.data());
       const double next = sum_of(partial_rz), beta = next / rz;
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c)
-        for (int q = topology.chunks().begin[c] * D; q < topology.chunks().begin[c + 1] * D; ++q) p[q] = z[q] + beta * p[q];
+        for (std::size_t q = static_cast<std::size_t>(begin_of(c)) * S; q < static_cast<std::size_t>(begin_of(c + 1)) * S; ++q) p[q] = z[q] + beta * p[q];
 #pragma omp single
       {
         rz = next;
@@ -172,6 +105,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x, const Conjug
       }
     }
   }
+  from_strided<D>(x, x_out);
   report.residual = bb > 0 ? std::sqrt(rz / bb) : 0;
   report.converged = std::isfinite(rz) && rz <= target;
   if (!report.converged)

@@ -40,25 +40,25 @@ struct MeanFlowSums {
   }
 };
 
-// Vectors of D entries a particle; the vertical velocity is the third.
-template <int D>
+// Vectors of S entries a particle; the vertical velocity is the third.
+template <int S>
 inline void sum_mean_flow(const MeanFlow& flow, int chunk, int begin, int end, const double* x, MeanFlowSums& sums) {
   double* own = sums.partial.data() + sums.total.size() * static_cast<std::size_t>(chunk);
   for (std::size_t q = 0; q < sums.total.size(); ++q) own[q] = 0;
   for (int k = begin; k < end; ++k)
     for (std::size_t at = flow.begin[k]; at < flow.begin[k + 1]; ++at) {
       const MeanFlow::Share& share = flow.share[at];
-      own[2 * share.slice] += share.displaced * x[k * D + 2];
-      own[2 * share.slice + 1] += share.drag * x[k * D + 2];
+      own[2 * share.slice] += share.displaced * x[k * S + 2];
+      own[2 * share.slice + 1] += share.drag * x[k * S + 2];
     }
 }
-template <int D>
+template <int S>
 inline void add_mean_flow(const MeanFlow& flow, int begin, int end, const MeanFlowSums& sums, double* y) {
   for (int k = begin; k < end; ++k)
     for (std::size_t at = flow.begin[k]; at < flow.begin[k + 1]; ++at) {
       const MeanFlow::Share& share = flow.share[at];
       const double back = sums.total[2 * share.slice];
-      y[k * D + 2] += share.drag * back + share.displaced * (sums.total[2 * share.slice + 1] + flow.slice_drag[share.slice] * back);
+      y[k * S + 2] += share.drag * back + share.displaced * (sums.total[2 * share.slice + 1] + flow.slice_drag[share.slice] * back);
     }
 }
 

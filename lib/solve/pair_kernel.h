@@ -1,5 +1,5 @@
 #pragma once
-// The arithmetic of one pair and one particle in the matrix-vector product; included by the files that run it.
+// The arithmetic of one pair and one particle, for what takes them one at a time; solve/pair_product.cpp has it four at a time.
 #include "solve/pair_system.h"
 
 namespace pigment::solve {
@@ -75,42 +75,6 @@ inline void add_full_pair(const FullPair& p, const double* xi, const double* xj,
     yj[1] -= f1;
     yj[2] -= f2;
   }
-}
-
-// What one chunk adds: its own rows of y (set, then summed), its halo slots and its share of the slices' sums. y holds N
-// particles and then the halo.
-template <int D>
-inline void apply_chunk(const PairSystem& system, int chunk, const double* x, double* y, MeanFlowSums& sums) {
-  const PairTopology& topology = *system.topology;
-  const int begin = topology.chunks().begin[chunk], end = topology.chunks().begin[chunk + 1];
-  for (int k = begin; k < end; ++k) add_particle<D>(system.particle[k], x + k * D, y + k * D);
-  const std::size_t n = topology.particles();
-  for (std::size_t h = (n + topology.halo_begin(chunk)) * D; h < (n + topology.halo_begin(chunk + 1)) * D; ++h) y[h] = 0;
-  for (const FullPair& p : system.full[chunk])
-    add_full_pair<D>(p, x + p.i * D, x + p.j * D, y + p.i * D, y + static_cast<std::size_t>(p.target) * D);
-  for (const SqueezePair& p : system.squeeze[chunk])
-    add_squeeze_pair<D>(p, x + p.i * D, x + p.j * D, y + p.i * D, y + static_cast<std::size_t>(p.target) * D);
-  if (!system.mean_flow.empty()) sum_mean_flow<D>(system.mean_flow, chunk, begin, end, x, sums);
-}
-
-// Takes the given velocities out of a residual or a search direction.
-template <int D>
-inline void mask_held(const PairSystem& system, int chunk, double* y) {
-  if (system.held.empty()) return;
-  for (int k = system.topology->chunks().begin[chunk]; k < system.topology->chunks().begin[chunk + 1]; ++k)
-    if (system.held[k]) y[k * D + 2] = 0;
-}
-
-// Finishes the rows of one chunk after apply_chunk of all, and after sums.combine() where there is a mean flow.
-template <int D>
-inline void gather_chunk(const PairSystem& system, int chunk, double* y, const MeanFlowSums& sums) {
-  const PairTopology& topology = *system.topology;
-  const std::size_t n = topology.particles();
-  const int begin = topology.chunks().begin[chunk], end = topology.chunks().begin[chunk + 1];
-  for (int k = begin; k < end; ++k)
-    for (const std::int32_t* slot = topology.slots_begin(k); slot != topology.slots_end(k); ++slot)
-      for (int d = 0; d < D; ++d) y[k * D + d] += y[(n + *slot) * D + d];
-  if (!system.mean_flow.empty()) add_mean_flow<D>(system.mean_flow, begin, end, sums, y);
 }
 
 }  // namespace pigment::solve

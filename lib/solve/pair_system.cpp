@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "solve/pair_kernel.h"
+#include "solve/pair_product.h"
 
 namespace pigment::solve {
 
@@ -31,7 +32,7 @@ PairTopology::PairTopology(std::size_t particles, const std::vector<std::int32_t
         slot_of[j] = static_cast<std::int32_t>(owner.size());
         owner.push_back(j);
       }
-      target_[p] = static_cast<std::int32_t>(particles) + slot_of[j];
+      target_[p] = static_cast<std::int32_t>(first_slot()) + slot_of[j];
     }
     for (std::size_t s = first; s < owner.size(); ++s) slot_of[owner[s]] = -1;
   }
@@ -51,47 +52,47 @@ template <int D>
 void apply_all(const PairSystem& system, const std::vector<double>& x, std::vector<double>& y) {
   const PairTopology& topology = *system.topology;
   const int count = topology.chunks().count();
-  std::vector<double> sum((topology.particles() + topology.halo_count()) * D);
+  std::vector<double> in(input_size<D>(topology)), out(output_size<D>(topology));
+  to_strided<D>(x, in);
   MeanFlowSums sums(system.mean_flow, count);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, x.data(), sum.data(), sums);
+    for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, in.data(), out.data(), sums);
     if (!system.mean_flow.empty()) {
 #pragma omp single
       sums.combine();
     }
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) gather_chunk<D>(system, c, sum.data(), sums);
+    for (int c = 0; c < count; ++c) finish_chunk<D>(system, c, false, in.data(), out.data(), sums);
   }
-  y.assign(sum.begin(), sum.begin() + topology.particles() * D);
+  y.resize(x.size());
+  from_strided<D>(out, y);
 }
 
 // What a full pair adds to the block of one of its particles, moving alone. With N = n x, P = 1 - n n^T, l its lever and
 // sign = +1 for i, -1 for j: uu: squeeze n n^T + a P;  ww: (a l^2 + 2 sign b l + c) P + twist n n^T;
 // uw: -sign (a l + sign b) N, and wu its transpose.
+constexpr int at(int row, int column) { return row * (row + 1) / 2 + column; }
+
 template <int D>
 void add_full_block(const FullPair& p, double l, double sign, double* m) {
   const double* n = p.n;
   const double spin = p.a * l * l + 2 * sign * p.b * l + p.c, cross = sign * p.a * l + p.b;
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c <= r; ++c) {
       const double nn = n[r] * n[c], projection = (r == c ? 1.0 : 0.0) - nn;
-      m[r * D + c] += p.squeeze * nn + p.a * projection;
-      if constexpr (D == 6) m[(r + 3) * D + c + 3] += spin * projection + p.twist * nn;
+      m[at(r, c)] += p.squeeze * nn + p.a * projection;
+      if constexpr (D == 6) m[at(r + 3, c + 3)] += spin * projection + p.twist * nn;
     }
   if constexpr (D == 6) {
-    // -cross N above the diagonal, its transpose below; N = [0 -nz ny; nz 0 -nx; -ny nx 0]
-    const auto put = [&](int r, int c, double value) {
-      m[r * D + 3 + c] -= cross * value;
-      m[(3 + c) * D + r] -= cross * value;
-    };
-    put(0, 1, -n[2]);
-    put(0, 2, n[1]);
-    put(1, 0, n[2]);
-    put(1, 2, -n[0]);
-    put(2, 0, -n[1]);
-    put(2, 1, n[0]);
+    // The transpose of -cross N; N = [0 -nz ny; nz 0 -nx; -ny nx 0]
+    m[at(4, 0)] += cross * n[2];
+    m[at(5, 0)] -= cross * n[1];
+    m[at(3, 1)] -= cross * n[2];
+    m[at(5, 1)] += cross * n[0];
+    m[at(3, 2)] += cross * n[1];
+    m[at(4, 2)] -= cross * n[0];
   }
 }
 
@@ -99,9 +100,10 @@ template <int D>
 std::vector<double> blocks(const PairSystem& system) {
   const PairTopology& topology = *system.topology;
   const int count = topology.chunks().count();
-  constexpr int B = D * D;
+  constexpr int B = D * (D + 1) / 2;
   const std::size_t n = topology.particles();
-  std::vector<double> block((n + topology.halo_count()) * B, 0.0);
+  const std::size_t halo = topology.first_slot();
+  std::vector<double> block((halo + topology.halo_count()) * B, 0.0);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
@@ -111,18 +113,18 @@ std::vector<double> blocks(const PairSystem& system) {
           double unit[D] = {}, column[D];
           unit[d] = 1;
           add_particle<D>(system.particle[k], unit, column);
-          for (int r = 0; r < D; ++r) block[k * B + r * D + d] = column[r];
+          for (int r = d; r < D; ++r) block[k * B + at(r, d)] = column[r];
         }
       }
       for (const SqueezePair& p : system.squeeze[c])
         for (int r = 0; r < 3; ++r)
-          for (int q = 0; q < 3; ++q) {
+          for (int q = 0; q <= r; ++q) {
             const double value = p.squeeze * p.n[r] * p.n[q];
-            block[p.i * B + r * D + q] += value;
-            block[static_cast<std::size_t>(p.target) * B + r * D + q] += value;
+            block[static_cast<std::size_t>(p.i) * B + at(r, q)] += value;
+            block[static_cast<std::size_t>(p.target) * B + at(r, q)] += value;
           }
       for (const FullPair& p : system.full[c]) {
-        add_full_block<D>(p, p.l_i, +1, &block[p.i * B]);
+        add_full_block<D>(p, p.l_i, +1, &block[static_cast<std::size_t>(p.i) * B]);
         add_full_block<D>(p, p.l_j, -1, &block[static_cast<std::size_t>(p.target) * B]);
       }
     }
@@ -130,7 +132,7 @@ std::vector<double> blocks(const PairSystem& system) {
     for (int c = 0; c < count; ++c)
       for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k)
         for (const std::int32_t* slot = topology.slots_begin(k); slot != topology.slots_end(k); ++slot)
-          for (int d = 0; d < B; ++d) block[k * B + d] += block[(n + *slot) * B + d];
+          for (int d = 0; d < B; ++d) block[static_cast<std::size_t>(k) * B + d] += block[(halo + *slot) * B + d];
   }
   block.resize(n * B);
   return block;

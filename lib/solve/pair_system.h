@@ -15,25 +15,13 @@
 
 #include "solve/chunks.h"
 #include "solve/mean_flow.h"
+#include "solve/pair_blocks.h"
 
 namespace pigment::solve {
 
 struct ParticleTerm {
   double across = 0, along = 0, coupling = 0, spin_across = 0, spin_along = 0;
 };
-// Shear, pump and twist besides squeeze.
-struct FullPair {
-  std::int32_t i, j;
-  std::int64_t target;  // target: where contributions to j go: j itself, or N + halo slot
-  double n[3], l_i, l_j, squeeze, twist, a, b, c;
-};
-// Far enough for squeeze alone.
-struct SqueezePair {
-  std::int32_t i, j;
-  std::int64_t target;
-  double n[3], squeeze;
-};
-
 // Which pairs there are and who owns them; made once a neighbour list.
 class PairTopology {
  public:
@@ -44,6 +32,8 @@ class PairTopology {
   const Chunks& chunks() const { return chunks_; }
   std::int32_t target(std::size_t pair) const { return target_[pair]; }
   std::size_t pair_begin(int chunk) const { return pair_begin_[chunk]; }  // pairs owned by a chunk
+  // Where the halo begins in arrays that hold it behind the particles: at a full four.
+  std::size_t first_slot() const { return (particles_ + lanes - 1) / lanes * lanes; }
   std::size_t halo_count() const { return halo_begin_.empty() ? 0 : halo_begin_.back(); }
   std::size_t halo_begin(int chunk) const { return halo_begin_[chunk]; }
   // Halo slots that belong to a particle, in fixed order.
@@ -62,8 +52,8 @@ struct PairSystem {
   const PairTopology* topology = nullptr;
   std::vector<ParticleTerm> particle;
   // One array a chunk, so that chunks fill and read theirs independently.
-  std::vector<std::vector<FullPair>> full;
-  std::vector<std::vector<SqueezePair>> squeeze;
+  std::vector<FullPairs> full;
+  std::vector<SqueezePairs> squeeze;
   MeanFlow mean_flow;                   // empty: none
   std::vector<double> right_hand_side;  // D a particle
   // Particles whose velocity along z is given (held by the free surface), not solved for: 1 a particle, empty: none; and the
@@ -76,7 +66,7 @@ struct PairSystem {
 
 // y = A x; vectors of D entries a particle.
 void apply(const PairSystem&, const std::vector<double>& x, std::vector<double>& y);
-// Dense D x D diagonal block of every particle, row-major, D*D entries a particle; without the mean flow's.
+// Diagonal block of every particle, its lower triangle row by row, D (D + 1)/2 entries a particle; without the mean flow's.
 std::vector<double> diagonal_blocks(const PairSystem&);
 
 }  // namespace pigment::solve

@@ -115,7 +115,7 @@ TEST(StepAssembly, ImplicitStepAddsTheStiffnessOfRepulsion) {
     layer.add(0.5, {10, 10, 10});
     layer.add(0.5, {10, 10, 11.006});
     layer.build();
-    return layer.system.full.at(0).at(0).squeeze;
+    return layer.system.full.at(0)[0].squeeze;
   };
   const std::string repulsion = "{electrostatic: {debye_length: 5 nm}}", attraction = "{van_der_waals: {hamaker_constant: 1e-20 J}}";
   const auto force = [](double gap) {
@@ -154,10 +154,10 @@ TEST(StepAssembly, GapVelocitiesAndRefinementFollowTheSolution) {
   EXPECT_LT(check.smallest_gap, 0);
   EXPECT_TRUE(check.refine);
   // Solved anew with the averaged resistance, which grows without bound as the end of the step nears contact.
-  double before = layer.system.full.at(0).at(0).squeeze;
+  double before = layer.system.full.at(0)[0].squeeze;
   for (int pass = 0; pass < 3; ++pass) {
     layer.step->build(layer.system);
-    const double now = layer.system.full.at(0).at(0).squeeze;
+    const double now = layer.system.full.at(0)[0].squeeze;
     EXPECT_GT(now, 1.2 * before) << pass;
     before = now;
     layer.step->refine(layer.system, u);
