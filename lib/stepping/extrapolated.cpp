@@ -9,8 +9,9 @@ namespace {
 // Extrapolated Euler, [deuflhard1987]: the Newton-implicit step is Euler's up to a second-order term, so twice the result of two
 // half steps less that of one whole step is of second order; their difference is the error of the half steps' result, which the
 // step control holds.
-// Extrapolating knows nothing of contact. A particle that it would bring nearer to another, or to the substrate, than a fifth of
-// the gap that the half steps leave (which never cross), or through the free surface, stays where the half steps put it.
+// Extrapolating knows nothing of contact. A particle that it would bring nearer to another than a fifth of the gap that the half
+// steps leave (which never cross) stays where the half steps put it; one that it would bring through the surface, or nearer to
+// the substrate than that, stops there.
 class Extrapolated final : public Integrator {
  public:
   Attempt attempt(StepContext& context, const RunState& state, double dt, bool with_error) const override {
@@ -64,7 +65,12 @@ class Extrapolated final : public Integrator {
       a.angular_velocity[k] = mean_angular[k];
       return true;
     };
-    for (std::size_t k : context.particles_astray(a.position, halves, second.protrusion, state.time + dt)) keep_halves(k);
+    for (std::size_t k = 0; k < halves.size(); ++k) {
+      const double z = context.height_within(k, a.position[k].z(), halves[k].z(), state.time + dt);
+      if (z == a.position[k].z()) continue;
+      a.position[k].z() = z;
+      a.velocity[k].z() = (z - state.position[k].z()) / dt;
+    }
     // Moving one back can bring it near a neighbour that went on: until none is, or all are back.
     for (bool settled = false; !settled;) {
       settled = true;

@@ -105,18 +105,12 @@ std::vector<double> StepContext::gaps(const Vec3Array& position) const {
   return gap;
 }
 
-std::vector<std::size_t> StepContext::particles_astray(const Vec3Array& position, const Vec3Array& safe,
-                                                       const std::vector<double>& protrusion, double time) const {
+double StepContext::height_within(std::size_t k, double z, double safe_z, double time) const {
   const auto& interactions = problem_.interactions;
-  const double height = height_at(time);
-  std::vector<std::size_t> astray;
-  for (std::size_t k = 0; k < position.size(); ++k) {
-    const double a = problem_.particles.radius[k], z = position[k].z();
-    const bool above = interactions.free_surface && z > safe[k].z() && (protrusion[k] > 0 || z + a + interactions.free_surface->roughness > height);
-    const bool below = interactions.substrate && safe[k].z() > a && z - a < nearest_share * (safe[k].z() - a);
-    if (above || below) astray.push_back(k);
-  }
-  return astray;
+  const double a = problem_.particles.radius[k];
+  if (interactions.free_surface) z = std::min(z, std::max(safe_z, height_at(time) - a - interactions.free_surface->roughness));
+  if (interactions.substrate && safe_z > a) z = std::max(z, a + nearest_share * (safe_z - a));
+  return z;
 }
 
 double StepContext::gap_error(const std::vector<double>& gap, const std::vector<double>& difference) const {

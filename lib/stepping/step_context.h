@@ -57,11 +57,10 @@ class StepContext {
   std::vector<double> gaps(const Vec3Array& position) const;
   // A listed pair's particles, file order.
   std::pair<std::int32_t, std::int32_t> pair(std::size_t p) const { return {list_.order[list_.pairs[p].i], list_.order[list_.pairs[p].j]}; }
-  // Particles that stand above the surface where `safe` positions do not, or nearer to the substrate than a fifth of the gap of
-  // those. protrusion: that of the safe positions.
+  // The height z of a particle, brought back between the surface (or the height safe_z, where that is above it) and a fifth of
+  // the gap that safe_z leaves to the substrate.
   static constexpr double nearest_share = 0.2;
-  std::vector<std::size_t> particles_astray(const Vec3Array& position, const Vec3Array& safe, const std::vector<double>& protrusion,
-                                            double time) const;
+  double height_within(std::size_t particle, double z, double safe_z, double time) const;
   // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
   // gap + Debye length.
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;
