@@ -95,14 +95,40 @@ TEST(PairLubrication, ShearBlockIsPositiveAtEveryTaperedGapAndRatio) {
 
 TEST(PairLubrication, DecaysMonotonicallyToZeroAtTheCutoff) {
   for (double ratio : {1.0, 3.0, 10.0, 100.0}) {
-    double last = std::numeric_limits<double>::infinity();
-    for (double g = 1e-5; g < 1.6; g += 1e-3) {
-      const double k = tapered_pair_scalars(ratio, 1, g, {}).squeeze;
-      ASSERT_LE(k, last) << ratio << " " << g;
+    PairScalars last = tapered_pair_scalars(ratio, 1, 1e-6, {});
+    for (double g = 1.01e-6; g < 1.6; g *= 1.01) {
+      const PairScalars k = tapered_pair_scalars(ratio, 1, g, {});
+      ASSERT_LE(k.squeeze, last.squeeze) << ratio << " " << g;
+      ASSERT_LE(k.shear, last.shear) << ratio << " " << g;
+      ASSERT_LE(k.pump, last.pump) << ratio << " " << g;
       last = k;
     }
-    EXPECT_EQ(last, 0);
+    EXPECT_EQ(last.squeeze, 0);
+    EXPECT_EQ(last.shear, 0);
+    EXPECT_EQ(last.pump, 0);
+    EXPECT_EQ(last.shear_pump, 0);
+    EXPECT_EQ(last.twist, 0);
   }
+}
+
+// C2: value, slope and curvature meet at both ends, so that what is left at a small distance from an end goes with its cube:
+// t^3 (10 - 15 t + 6 t^2), and the same from above.
+TEST(PairLubrication, TaperIsSmoothAndMonotone) {
+  const double begin = 0.2, end = 0.4;
+  double last = 1;
+  for (double y = 0.15; y < 0.45; y += 1e-4) {
+    const double w = taper(y, begin, end);
+    ASSERT_LE(w, last);
+    ASSERT_GE(w, 0);
+    last = w;
+  }
+  EXPECT_EQ(taper(begin, begin, end), 1);
+  EXPECT_EQ(taper(end, begin, end), 0);
+  for (double t : {0.01, 0.001}) {
+    EXPECT_NEAR((1 - taper(begin + t * (end - begin), begin, end)) / (t * t * t), 10, 16 * t);
+    EXPECT_NEAR(taper(end - t * (end - begin), begin, end) / (t * t * t), 10, 16 * t);
+  }
+  EXPECT_NEAR(taper(0.3, begin, end), 0.5, 1e-14);
 }
 
 TEST(PairLubrication, ExchangingTheSpheresChangesOnlyTheSignOfTheCoupling) {
