@@ -15,24 +15,25 @@
 namespace {
 
 using namespace pigment;
-using analysis::SizeClassProfile;
+using analysis::GroupProfile;
 using analysis::SolidsProfile;
 using Storage = io::Dataset::Storage;
 
-void add_size_class(io::ResultFile& result, const std::vector<SolidsProfile>& profiles,
-                    std::size_t size_class) {
-  const auto add = [&](const char* name, std::vector<double> SizeClassProfile::*member) {
-    const std::string path = fmt::format("/solids/size_class_{}/{}", size_class, name);
+// prefix: "/solids/size_class_", groups: which of the profile's lists.
+void add_group(io::ResultFile& result, const std::vector<SolidsProfile>& profiles, const char* prefix,
+               std::vector<GroupProfile> SolidsProfile::*groups, std::size_t group) {
+  const auto add = [&](const char* name, std::vector<double> GroupProfile::*member) {
+    const std::string path = fmt::format("{}{}/{}", prefix, group, name);
     result.datasets.push_back(io::column(
         path, Dimension::Number,
-        profiles, [&](const SolidsProfile& p) -> const auto& { return p.size_classes[size_class].*member; }));
+        profiles, [&](const SolidsProfile& p) -> const auto& { return (p.*groups)[group].*member; }));
   };
-  add("volume_fraction", &SizeClassProfile::volume_fraction);
-  add("mass_fraction", &SizeClassProfile::mass_fraction);
-  add("solids_fraction", &SizeClassProfile::solids_fraction);
-  add("number", &SizeClassProfile::number);
-  add("number_fraction", &SizeClassProfile::number_fraction);
-  add("share", &SizeClassProfile::share);
+  add("volume_fraction", &GroupProfile::volume_fraction);
+  add("mass_fraction", &GroupProfile::mass_fraction);
+  add("solids_fraction", &GroupProfile::solids_fraction);
+  add("number", &GroupProfile::number);
+  add("number_fraction", &GroupProfile::number_fraction);
+  add("share", &GroupProfile::share);
 }
 
 io::ResultFile to_result(const analysis::SolidsDevelopment& development,
@@ -71,7 +72,9 @@ io::ResultFile to_result(const analysis::SolidsDevelopment& development,
   result.datasets.push_back(
       io::column("/solids/size_class_borders", Dimension::Length, parameters.size_classes));
   for (std::size_t c = 0; c < parameters.size_class_count(); ++c)
-    add_size_class(result, development.profiles, c);
+    add_group(result, development.profiles, "/solids/size_class_", &SolidsProfile::size_classes, c);
+  for (std::size_t k = 0; k < development.profiles.front().species.size(); ++k)
+    add_group(result, development.profiles, "/solids/species_", &SolidsProfile::species, k);
 
   using analysis::NonAffineInterval;
   const auto add_interval = [&](const char* name, Dimension dimension, auto member) {
@@ -171,8 +174,7 @@ int main(int argc, char** argv) {
   const auto declare = [&](app::CommandLine& line) {
     line.describe(
         "Solids profiles of a layer, vol-% and wt-%, over equal slices of its thickness in every frame; by "
-        "size "
-        "class; mass centre, z95, z99, cake and skin thickness, and when the layer became immobile; of the last "
+        "size class and species; mass centre, z95, z99, cake and skin thickness, and when the layer became immobile; of the last "
         "frame the solids in each particle's own space, and the pores.",
         "pigment-solids trajectory.h5 --scene scene.yaml -o solids.h5");
     line.references(

@@ -19,6 +19,50 @@ struct Filling {
   double mass() const { return solid_mass + std::max(0.0, space - solid_volume) * liquid_density; }
 };
 
+// What all particles together have in a slice.
+struct SliceTotal {
+  double space, mass, solid_volume, number;  // mass: liquid included
+};
+
+// Volume, mass and number of each group of particles in each slice.
+struct Groups {
+  using Table = std::vector<std::vector<double>>;  // [group][slice]
+  Table volume, mass, number;
+
+  Groups(std::size_t groups, std::size_t slices)
+      : volume(groups, std::vector<double>(slices, 0.0)), mass(volume), number(volume) {}
+  std::size_t count() const { return volume.size(); }
+  void add(std::size_t group, std::size_t slice, double part, double part_mass) {
+    volume[group][slice] += part;
+    mass[group][slice] += part_mass;
+  }
+  void count_centre(std::size_t group, std::size_t slice) { number[group][slice] += 1; }
+
+  std::vector<GroupProfile> profiles(const std::vector<SliceTotal>& total) const {
+    std::vector<GroupProfile> out;
+    for (std::size_t g = 0; g < count(); ++g) {
+      GroupProfile& of = out.emplace_back();
+      of.number = number[g];
+      const double all = std::accumulate(number[g].begin(), number[g].end(), 0.0);
+      for (std::size_t s = 0; s < total.size(); ++s) {
+        of.volume_fraction.push_back(ratio(volume[g][s], total[s].space));
+        of.mass_fraction.push_back(ratio(mass[g][s], total[s].mass));
+        of.solids_fraction.push_back(ratio(volume[g][s], total[s].solid_volume));
+        of.number_fraction.push_back(ratio(number[g][s], total[s].number));
+        of.share.push_back(ratio(number[g][s], all));
+      }
+    }
+    return out;
+  }
+};
+
+// 0 where there is but one: its profile is that of all.
+std::size_t species_count(const Solids& solids) {
+  int last = 0;
+  for (const int species : solids.species) last = std::max(last, species);
+  return last == 0 ? 0 : static_cast<std::size_t>(last) + 1;
+}
+
 std::vector<double> turned_over(const std::vector<double>& edges) {
   std::vector<double> turned(edges.rbegin(), edges.rend());
   for (double& z : turned) z = edges.back() - z;
@@ -43,48 +87,40 @@ double dense_thickness(const std::vector<double>& edges, const std::vector<doubl
 SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const Parameters& parameters,
                              ColumnGrid columns) {
   const auto slices = static_cast<std::size_t>(parameters.slices);
-  const std::size_t classes = parameters.size_class_count();
   const double area = frame.cell.area(), height = frame.cell.height, liquid_density = solids.liquid_density;
   SolidsProfile p;
   p.time = frame.time;
   p.thickness = height;
   p.edges = equal_slices(height, parameters.slices);
 
-  // Volume, mass and number of each class in each slice.
-  std::vector<std::vector<double>> volume(classes, std::vector<double>(slices, 0.0)), mass = volume,
-                                                                                      number = volume;
-  std::vector<double> class_number(classes, 0.0);
+  Groups all(1, slices), by_size(parameters.size_class_count(), slices), by_species(species_count(solids), slices);
   double solid_mass = 0, solid_volume = 0;
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     const double a = solids.radius[i], z = frame.position[i].z(), sphere = Particles::sphere_volume(a);
-    const std::size_t c = parameters.size_class(2 * a);
+    const std::size_t size = parameters.size_class(2 * a), species = by_species.count() > 0 ? static_cast<std::size_t>(solids.species[i]) : 0;
     for_each_slice(p.edges, a, z, [&](std::size_t s, double part) {
-      volume[c][s] += part;
-      mass[c][s] += part / sphere * solids.mass[i];
+      const double mass = part / sphere * solids.mass[i];
+      all.add(0, s, part, mass);
+      by_size.add(size, s, part, mass);
+      if (by_species.count() > 0) by_species.add(species, s, part, mass);
     });
     if (z <= height) {
       const double slice = std::max(0.0, z / height * static_cast<double>(slices));
-      number[c][std::min(slices - 1, static_cast<std::size_t>(slice))] += 1;
-      class_number[c] += 1;
+      const std::size_t s = std::min(slices - 1, static_cast<std::size_t>(slice));
+      all.count_centre(0, s);
+      by_size.count_centre(size, s);
+      if (by_species.count() > 0) by_species.count_centre(species, s);
     }
     solid_mass += solids.mass[i];
     solid_volume += sphere;
   }
 
-  p.size_classes.resize(classes);
-  for (SizeClassProfile& c : p.size_classes)
-    c.volume_fraction = c.mass_fraction = c.solids_fraction = c.number_fraction = c.share =
-        std::vector<double>(slices);
+  std::vector<SliceTotal> totals;
   double volume_below = 0, mass_below = 0;
   for (std::size_t s = 0; s < slices; ++s) {
-    const double space = area * (p.edges[s + 1] - p.edges[s]);
-    double v = 0, m = 0, n = 0;
-    for (std::size_t c = 0; c < classes; ++c) {
-      v += volume[c][s];
-      m += mass[c][s];
-      n += number[c][s];
-    }
+    const double space = area * (p.edges[s + 1] - p.edges[s]), v = all.volume[0][s], m = all.mass[0][s];
     const Filling slice{v, m, space, liquid_density};
+    totals.push_back({space, slice.mass(), v, all.number[0][s]});
     volume_below += v;
     mass_below += m;
     p.volume_fraction.push_back(ratio(v, space));
@@ -92,16 +128,9 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
     p.cumulative_share.push_back(ratio(volume_below, solid_volume));
     const Filling below{volume_below, mass_below, area * p.edges[s + 1], liquid_density};
     p.cumulative_mass_fraction.push_back(ratio(mass_below, below.mass()));
-    for (std::size_t c = 0; c < classes; ++c) {
-      SizeClassProfile& of = p.size_classes[c];
-      of.volume_fraction[s] = ratio(volume[c][s], space);
-      of.mass_fraction[s] = ratio(mass[c][s], slice.mass());
-      of.solids_fraction[s] = ratio(volume[c][s], v);
-      of.number_fraction[s] = ratio(number[c][s], n);
-      of.share[s] = ratio(number[c][s], class_number[c]);
-    }
   }
-  for (std::size_t c = 0; c < classes; ++c) p.size_classes[c].number = std::move(number[c]);
+  p.size_classes = by_size.profiles(totals);
+  p.species = by_species.profiles(totals);
 
   p.mean_volume_fraction = ratio(solid_volume, area * height);
   p.porosity = 1 - ratio(volume_below, area * height);

@@ -10,16 +10,16 @@
 
 namespace pigment::analysis {
 
-// One entry a slice. A particle counts in the slice that holds its centre (those above the surface in none);
+// Of the particles of a size class or a species. One entry a slice. A particle counts in the slice that holds its centre (those above the surface in none);
 // volumes are shared exactly.
-struct SizeClassProfile {
-  std::vector<double> volume_fraction;  // the class's volume over the slice's volume
-  std::vector<double> mass_fraction;    // the class's mass over the slice's mass, liquid included
+struct GroupProfile {
+  std::vector<double> volume_fraction;  // the group's volume over the slice's volume
+  std::vector<double> mass_fraction;    // the group's mass over the slice's mass, liquid included
   std::vector<double>
-      solids_fraction;  // the class's volume over the slice's solid volume; 0 in a slice without solids
+      solids_fraction;  // the group's volume over the slice's solid volume; 0 in a slice without solids
   std::vector<double> number;           // particles
   std::vector<double> number_fraction;  // of the slice's particles; 0 in a slice without particles
-  std::vector<double> share;  // of the class's particles in the layer; sums to 1 (0 for an empty class)
+  std::vector<double> share;  // of the group's particles in the layer; sums to 1 (0 for an empty group)
 };
 
 struct SolidsProfile {
@@ -30,7 +30,8 @@ struct SolidsProfile {
   std::vector<double> cumulative_share;  // slices: share of all solid volume below the slice's upper edge
   std::vector<double>
       cumulative_mass_fraction;  // slices: mass fraction of everything below the slice's upper edge
-  std::vector<SizeClassProfile> size_classes;
+  std::vector<GroupProfile> size_classes;
+  std::vector<GroupProfile> species;  // empty where there is but one
   double thickness = 0;             // um, substrate to surface
   double mean_volume_fraction = 0;  // all solids over the layer's volume
   double mean_mass_fraction = 0;    // all solids, liquid: the layer's volume less the solids
@@ -64,6 +65,7 @@ struct Solids {
   std::vector<double> radius;    // um
   std::vector<double> mass;      // engine units, all positive
   double liquid_density = 1e-3;  // engine units
+  std::vector<int> species = {};   // of each particle, from 0; empty: all are of one
 };
 
 // Tops of columns of the grid; without one of the frame's own.

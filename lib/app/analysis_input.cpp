@@ -69,7 +69,12 @@ AnalysisInput open_analysis_input(const CommandLine& line, const AnalysisOptions
 
 analysis::Solids weigh_solids(const AnalysisInput& input) {
   const Particles& particles = input.particles();
-  analysis::Solids solids{particles.radius, particles.mass, input.liquid_density};
+  analysis::Solids solids{particles.radius, particles.mass, input.liquid_density, particles.species};
+  constexpr int most_species = 100;  // a file made by hand may number its particles so
+  if (!solids.species.empty() && *std::max_element(solids.species.begin(), solids.species.end()) >= most_species) {
+    note(fmt::format("{}: more than {} species; no profiles by species", input.file->path().string(), most_species));
+    solids.species.clear();
+  }
   if (input.file->has_mass()) return solids;
   const double usual = 2.7e-3;  // 2700 kg/m3
   bool usual_taken = false;

@@ -79,7 +79,7 @@ TEST(SolidsProfile, ConservesVolumeAndMass) {
   double particles = 0;
   for (std::size_t s = 0; s < 30; ++s) {
     double volume = 0, mass = 0, solids_fraction = 0, number_fraction = 0;
-    for (const SizeClassProfile& c : p.size_classes) {
+    for (const GroupProfile& c : p.size_classes) {
       volume += c.volume_fraction[s];
       mass += c.mass_fraction[s];
       solids_fraction += c.solids_fraction[s];
@@ -92,7 +92,31 @@ TEST(SolidsProfile, ConservesVolumeAndMass) {
     EXPECT_NEAR(number_fraction, 1, 1e-14);
   }
   EXPECT_EQ(particles, 4000);
-  for (const SizeClassProfile& c : p.size_classes) EXPECT_NEAR(sum(c.share), 1, 1e-14);
+  for (const GroupProfile& c : p.size_classes) EXPECT_NEAR(sum(c.share), 1, 1e-14);
+}
+
+TEST(SolidsProfile, BySpeciesIsThatOfTheLayerWithTheOthersTakenOut) {
+  RandomLayer layer = random_layer(2000), second = layer;
+  second.frame.position.clear();
+  second.solids = {};
+  for (std::size_t i = 0; i < 2000; ++i) {
+    layer.solids.species.push_back(i % 3 == 0 ? 1 : 0);
+    if (i % 3 != 0) continue;
+    second.frame.position.push_back(layer.frame.position[i]);
+    second.solids.radius.push_back(layer.solids.radius[i]);
+    second.solids.mass.push_back(layer.solids.mass[i]);
+  }
+  const SolidsProfile all = profile_solids(layer.frame, layer.solids, Parameters{}),
+                      alone = profile_solids(second.frame, second.solids, Parameters{});
+  ASSERT_EQ(all.species.size(), 2u);
+  EXPECT_TRUE(alone.species.empty());
+  for (std::size_t s = 0; s < 30; ++s) {
+    EXPECT_NEAR(all.species[1].volume_fraction[s], alone.volume_fraction[s], 1e-14);
+    EXPECT_NEAR(all.species[0].volume_fraction[s] + all.species[1].volume_fraction[s], all.volume_fraction[s], 1e-14);
+    EXPECT_NEAR(all.species[0].mass_fraction[s] + all.species[1].mass_fraction[s], all.mass_fraction[s], 1e-14);
+  }
+  EXPECT_EQ(sum(all.species[1].number), 667);  // of 2000 every third, from the first
+  EXPECT_NEAR(sum(all.species[1].share), 1, 1e-14);
 }
 
 TEST(SolidsProfile, LeavesOutWhatProtrudesAndSaysHowMuch) {
