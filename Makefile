@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench speed studies claims install clean format page-libraries help dependencies configure FORCE
+.PHONY: all build test bench speed accuracy studies claims install clean format page-libraries help dependencies configure FORCE
 
 all: study-drying
 	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
@@ -27,6 +27,7 @@ help:
 	@echo 'make studies         run all of them; one report of their claims and figures: $(BUILD)/studies/report.html'
 	@echo 'make claims          write docs/claims.md from the studies that have been run'
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
+	@echo 'make accuracy        measure errors and cost of the resistance models, write docs/accuracy.md'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
 	@echo 'make format          clang-format over lib, tools and tests'
 	@echo 'make page-libraries  rebuild the JavaScript libraries inside the report from npm'
@@ -57,6 +58,12 @@ bench: configure
 speed: build
 	workflows/speed/measure.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
 	workflows/speed/analyses.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
+
+# Errors of the resistance models (study-hydrodynamics) and what a pair costs, as docs/accuracy.md. Nothing else should run beside it.
+accuracy: study-hydrodynamics
+	cmake --build $(BUILD) --parallel $(JOBS) --target bench_resistance
+	cd $(BUILD)/bench && ./bench_resistance --benchmark_repetitions=10 --benchmark_out=resistance.json --benchmark_out_format=json
+	workflows/replace_if_changed.sh docs/accuracy.md /usr/bin/python3 workflows/hydrodynamics/accuracy_page.py '$(BUILD)/studies/hydrodynamics' '$(BUILD)/bench/resistance.json'
 
 install: build
 	DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)'

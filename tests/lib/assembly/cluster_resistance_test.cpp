@@ -68,7 +68,7 @@ struct Assembled {
     range.skin = 0;
     list = neighbours::make_neighbour_list(cell, position, cluster.particles.radius, range);
     step = std::make_unique<assembly::StepAssembly>(interactions, cluster.particles, cell, list);
-    step->begin(position, {400, 400, 0, 0}, liquid, 0.01, false, {}, std::vector<double>(position.size(), 0.0));
+    step->begin(position, {400, 400, 0, 0}, liquid, 0.01, assembly::Treatment::Explicit, {}, std::vector<double>(position.size(), 0.0));
     step->build(system);
   }
   // R, rows and columns in the order of the file.
@@ -184,7 +184,7 @@ TEST(SpeciesPotentials, EveryPairHasTheForceOfItsTwo) {
       neighbours::make_neighbour_list(cell, three.position, three.particles.radius, assembly::pair_range(interactions, liquid));
   assembly::StepAssembly step(interactions, three.particles, cell, list);
   solve::PairSystem system;
-  step.begin(three.position, {20, 20, 0, 0}, liquid, 0.01, false, {}, std::vector<double>(3, 0.0));
+  step.begin(three.position, {20, 20, 0, 0}, liquid, 0.01, assembly::Treatment::Explicit, {}, std::vector<double>(3, 0.0));
   step.build(system);
   // [hogg1966]: f = pi eps R kappa [ (p1 + p2)^2 e/(1 + e) - (p1 - p2)^2 e/(1 - e) ], e = exp(-kappa h), in SI and then pN.
   const auto expected = [&](double p1, double p2) {
