@@ -96,7 +96,7 @@ figure, axes = study.figure("approach", "Two spheres of 1 um pressed together by
                             "stepper's tolerance (right)", columns=2)
 for k, (tolerance, (time, gap, exact_gap, error)) in enumerate(approach.items()):
     axes[0].semilogy(time[::8] * 1e3, gap[::8] / SPHERE, "os^"[k], color=f"C{k}", mfc="none", label=tolerance)
-    axes[1].semilogy(time[1:] * 1e3, 100 * error[1:], color=f"C{k}")
+    axes[1].semilogy(time[1:] * 1e3, np.where(error[1:] > 0, 100 * error[1:], np.nan), color=f"C{k}")
 axes[0].semilogy(time * 1e3, exact_gap / SPHERE, color="0.3", lw=0.8, zorder=0)
 axes[0].set(xlabel="time (ms)", ylabel="gap / radius", xlim=(0, None))
 axes[1].axhline(0.5, color="0.6", lw=0.6, zorder=0)
@@ -144,7 +144,7 @@ for axis in axes[1]:
     axis.set_xlabel("gap / smaller radius")
 for axis in axes[:, 0]:
     axis.set_ylabel("error (%)")
-axes[0, 1].legend(ncols=3, loc="lower left", columnspacing=1)
+axes[0, 0].legend(ncols=2, loc="upper left", columnspacing=1)
 
 figure, axis = study.figure("pair-error-worst", "Two spheres: largest error over all size ratios from 1 to 1:100 and all relative motions, by model. Below 0.1 of the smaller radius the model in use is within 0.5 %; the taper "
                             "ends it at 0.4 (shear) and 1.5 (squeeze)")
@@ -169,7 +169,7 @@ for axis, partner in zip(axes, ("wall", "surface")):
         for model in ("thesis", "leading"):
             draw(axis, model, partner, mode, color=f"C{k}", lw=0.8)
     axis.axhline(0.5, color="0.6", lw=0.6, zorder=0)
-    axis.set(xlabel="gap / radius", title={"wall": "wall", "surface": "free surface"}[partner], xlim=(1e-6, 10), ylim=(4e-6, 300))
+    axis.set(xlabel="gap / radius", title={"wall": "wall", "surface": "free surface"}[partner], xlim=(1e-6, 10), ylim=(3e-7, 300))
 axes[0].set_ylabel("error (%)")
 axes[0].legend(ncols=2, loc="lower left")
 study.finish()
