@@ -97,6 +97,16 @@ TEST_P(EveryLaw, UnknownKeyIsRefused) {
   EXPECT_THROW(prepared(entry(), block), InputError);
 }
 
+// Every example has a length; in a unit of another dimension, without a unit, or negative it is none.
+TEST_P(EveryLaw, LengthOfAnotherDimensionOrSignIsRefused) {
+  const std::string block = entry().example;
+  const std::size_t unit = block.find(" nm"), number = block.rfind(": ", unit);
+  ASSERT_NE(unit, std::string::npos);
+  EXPECT_THROW(prepared(entry(), std::string(block).replace(unit, 3, " kPa")), InputError);
+  EXPECT_THROW(prepared(entry(), std::string(block).replace(unit, 3, "")), InputError);
+  EXPECT_THROW(prepared(entry(), std::string(block).insert(number + 2, "-")), InputError);
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::Range<std::size_t>(0, pair_laws().size()),
                          [](const auto& info) { return pair_laws()[info.param].name; });
 
