@@ -14,6 +14,7 @@ using namespace pigment;
 
 struct Options {
   std::vector<app::path> files, claims, figures;
+  app::path plots;
   std::string title, colour = "auto";
   int viewer_frames = 100;
 };
@@ -35,6 +36,7 @@ void declare(app::CommandLine& line, Options& o) {
   line.option("--title", o.title, "heading of the page");
   line.option("--colour,--color", o.colour,
               "colours of the pictures: auto (species where there are several, else size), size, species");
+  line.option("--plots", o.plots, "also write every plot as a file fit for print (SVG, 85 mm wide) into this folder");
   line.option("--viewer-frames", o.viewer_frames,
               "most frames of a run in the interactive 3-D view, evenly in time; 0: no such view");
   line.output_required(true, "the page (HTML)");
@@ -58,8 +60,10 @@ void run(const app::CommandLine& line, const Options& o) {
   report::PictureWishes wishes;
   wishes.colour = o.colour;
   wishes.viewer_frames = report::whole_option("--viewer-frames", o.viewer_frames, 0, 10000);
-  const std::string page = report::compose_report(runs, studies, title, wishes).page();
+  const report::HtmlReport composed = report::compose_report(runs, studies, title, wishes);
+  const std::string page = composed.page();
   report::write_whole_file(line.common.output, page);
+  if (!o.plots.empty()) report::write_plots(o.plots, composed.drawn());
   note(fmt::format("{}: {:.1f} MB", line.common.output.string(), 1e-6 * static_cast<double>(page.size())));
 }
 

@@ -79,6 +79,14 @@ Colour identity_tint(std::int64_t number) {
   return from_oklch(number % 2 == 0 ? 0.72 : 0.58, 0.13, hue);
 }
 
+Colour series_colour(std::size_t index, bool on_dark) {
+  static constexpr double hues[8] = {252, 48, 158, 352, 88, 205, 300, 22};
+  static constexpr double light_paper[8] = {0.52, 0.63, 0.50, 0.56, 0.66, 0.62, 0.46, 0.50};
+  static constexpr double dark_paper[8] = {0.70, 0.74, 0.68, 0.70, 0.88, 0.80, 0.66, 0.62};
+  const std::size_t i = index % 8;
+  return from_oklch((on_dark ? dark_paper : light_paper)[i], i == 4 || i == 5 ? 0.115 : 0.15, hues[i]);
+}
+
 Colour categorical(std::size_t index) {
   struct Tint {
     double lightness, chroma, hue;

@@ -30,6 +30,9 @@ Colour sequential(double position);
 Colour near_to_far(double position);
 // A tint of its own for each number: neighbouring numbers are far apart in hue.
 Colour identity_tint(std::int64_t number);
+// Colours of curves on light or on dark paper: hues apart, lightness uneven, so that they stay apart without colour vision
+// and in print; they repeat after eight.
+Colour series_colour(std::size_t index, bool on_dark);
 // Distinct mineral tints of similar lightness, for species; they repeat after eight.
 Colour categorical(std::size_t index);
 

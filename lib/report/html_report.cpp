@@ -9,21 +9,15 @@
 namespace pigment::report {
 namespace {
 
-// Series colours: hues apart, lightness uneven, so that they stay apart without colour vision and on paper.
-std::string palette(const double (&lightness)[8]) {
-  static constexpr double hues[8] = {252, 48, 158, 352, 88, 205, 300, 22};
+std::string palette(bool on_dark) {
   std::string out;
-  for (int i = 0; i < 8; ++i)
-    out += fmt::format("--s{}:{};", i + 1,
-                       to_hex(from_oklch(lightness[i], i == 4 || i == 5 ? 0.115 : 0.15, hues[i])));
+  for (std::size_t i = 0; i < 8; ++i) out += fmt::format("--s{}:{};", i + 1, to_hex(series_colour(i, on_dark)));
   return out;
 }
 
 std::string palette_style() {
-  static constexpr double on_light[8] = {0.52, 0.63, 0.50, 0.56, 0.66, 0.62, 0.46, 0.50};
-  static constexpr double on_dark[8] = {0.70, 0.74, 0.68, 0.70, 0.88, 0.80, 0.66, 0.62};
-  return ":root{" + palette(on_light) + "}\n@media screen and (prefers-color-scheme:dark){:root{" +
-         palette(on_dark) + "}}\n";
+  return ":root{" + palette(false) + "}\n@media screen and (prefers-color-scheme:dark){:root{" +
+         palette(true) + "}}\n";
 }
 
 }  // namespace
@@ -65,7 +59,10 @@ void HtmlReport::headlines(const std::vector<Headline>& numbers) {
 
 void HtmlReport::plots(const std::vector<Plot>& plots) {
   body_ += "<div class=\"plots\">\n";
-  for (const Plot& p : plots) body_ += plot_figure(p, fmt::format("plot{}", ++plots_));
+  for (const Plot& p : plots) {
+    body_ += plot_figure(p, fmt::format("plot{}", ++plots_));
+    drawn_.push_back({chapters_.empty() ? "" : chapters_.back().second, sections_.empty() ? "" : sections_.back().second, p});
+  }
   body_ += "</div>\n";
 }
 
@@ -73,9 +70,9 @@ void HtmlReport::images(const std::vector<CaptionedImage>& images, const std::st
   body_ += "<div class=\"pictures\">\n";
   for (const CaptionedImage& i : images)
     body_ += fmt::format(
-        "<figure><img alt=\"{}\" width=\"{}\" height=\"{}\" "
+        "<figure{}><img alt=\"{}\" width=\"{}\" height=\"{}\" "
         "src=\"{}\"><figcaption>{}</figcaption></figure>\n",
-        html_escape(i.description), i.image.width, i.image.height, png_data_uri(i.image),
+        i.time ? fmt::format(" data-time=\"{:.9g}\"", *i.time) : "", html_escape(i.description), i.image.width, i.image.height, png_data_uri(i.image),
         html_escape(i.caption));
   body_ += "</div>\n";
   if (!note.empty()) body_ += "<p class=\"note\">" + html_escape(note) + "</p>\n";
@@ -166,6 +163,9 @@ std::string HtmlReport::page() const {
   out += "</style>\n</head>\n<body>\n";
   out += "<header><h1>" + html_escape(title_) + "</h1>";
   if (!subtitle_.empty()) out += "<p>" + html_escape(subtitle_) + "</p>";
+  if (plots_ > 0)
+    out += "<p class=\"hint\">Plots: point for values, drag to zoom, click the names to switch curves. Sliders move all that shows "
+           "the same times.</p>";
   out += "</header>\n<nav>" + contents + "</nav>\n<main>\n" + body_ + (open_ ? "</section>\n" : "") +
          "</main>\n";
   const auto script = [&out](std::string_view text) { ((out += "<script>\n") += text) += "</script>\n"; };

@@ -1,5 +1,7 @@
 #pragma once
 // One HTML page that stands alone: style, script, plots and pictures inside, nothing fetched from anywhere.
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +19,7 @@ struct Headline {  // one number of the summary
 struct CaptionedImage {
   std::string caption, description;  // description: for readers who cannot see it
   Image image;
+  std::optional<double> time = {};  // ms
 };
 
 // What the colours of pictures mean: a scale with labels at positions 0..1, or tints by name.
@@ -29,6 +32,11 @@ struct ColourLegend {
 
 // VerdictFirst: the first column holds verdicts, shown as coloured marks, and the others run over several lines.
 enum class TableStyle { Plain, VerdictFirst };
+
+struct DrawnPlot {
+  std::string chapter, section;  // where on the page
+  Plot plot;
+};
 
 class HtmlReport {
  public:
@@ -48,6 +56,7 @@ class HtmlReport {
   // <script> elements. One a page.
   void viewer(const std::string& json, const std::string& packed, const std::string& note);
   void remark(const std::string& text);  // set apart: what a reader must know
+  const std::vector<DrawnPlot>& drawn() const { return drawn_; }  // every plot so far
   bool empty() const { return sections_.empty(); }
 
   std::string page() const;  // the same bytes for the same calls
@@ -55,10 +64,14 @@ class HtmlReport {
  private:
   std::string title_, subtitle_, body_, footer_;
   std::vector<std::pair<std::string, std::string>> sections_, chapters_;  // anchor, title
+  std::vector<DrawnPlot> drawn_;
   int plots_ = 0;
   bool open_ = false, has_viewer_ = false;
   void close_section();
 };
+
+// One SVG file a plot, named after chapter, section and title; the folder is made where it is missing. Throws OutputError.
+void write_plots(const std::filesystem::path& folder, const std::vector<DrawnPlot>&);
 
 extern const char* const page_style;  // CSS
 

@@ -50,7 +50,13 @@ svg .line{fill:none;stroke:currentColor;stroke-width:2;stroke-linejoin:round;str
 svg .dashed{stroke-dasharray:6 5}
 svg .current .line{stroke-width:3}
 svg .bar{fill:none;stroke:currentColor;stroke-width:1.3}
-svg .dot{fill:currentColor;stroke:var(--card);stroke-width:1}
+svg .dot{fill:none;stroke:currentColor;stroke-width:6.4;stroke-linecap:round}
+.curves path{vector-effect:non-scaling-stroke}
+svg .now{stroke:var(--accent);stroke-width:1.2;fill:none;opacity:.75;pointer-events:none}
+svg .zoom-box{fill:var(--accent);fill-opacity:.12;stroke:var(--accent);pointer-events:none}
+.unzoom{position:absolute;right:8px;top:4px;font:inherit;font-size:.78rem;color:var(--accent);background:var(--card);border:1px solid var(--rule);border-radius:6px;padding:.05rem .5rem;cursor:pointer}
+.unzoom[hidden]{display:none}
+header .hint{font-size:.86rem;color:var(--faint)}
 svg .marker{stroke:var(--mark);stroke-width:1.2;stroke-dasharray:4 3;fill:none}
 svg .marker-label{fill:var(--mark);font-size:12.5px;paint-order:stroke;stroke:var(--card);stroke-width:4px;stroke-linejoin:round}
 svg .cross{stroke:var(--soft);stroke-width:1;fill:none;opacity:.7}
@@ -101,7 +107,7 @@ pre{margin:.2rem 0 .8rem;overflow-x:auto;font:13px/1.5 ui-monospace,SFMono-Regul
 @media print{
   :root{color-scheme:light}
   body{font-size:10.5pt;background:#fff}
-  nav,.slider,.tip{display:none}
+  nav,.slider,.tip,.unzoom,.hint,svg .now{display:none}
   header,main{max-width:none;padding:0}
   figure,.headlines>div,tr{break-inside:avoid;box-shadow:none!important}
   h2,section>p{break-after:avoid}

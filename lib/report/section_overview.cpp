@@ -175,11 +175,14 @@ HtmlReport compose_report(const std::vector<RunFiles>& runs, const std::vector<S
     if (chapters) page.chapter(studies.size() > 1 ? study.name : "Findings");
     add_study(page, study);
   }
-  const std::vector<RunView> views(runs.begin(), runs.end());
+  std::vector<RunView> views(runs.begin(), runs.end());
+  const bool seconds = std::any_of(views.begin(), views.end(), [](const RunView& v) { return v.in_seconds; });
+  for (RunView& v : views) v.in_seconds = seconds;  // runs that stand side by side are read in one unit
   if (runs.size() > 1) {
-    if (!studies.empty()) page.chapter("Runs");
+    page.chapter("Runs side by side");
     add_comparison(page, views);
     add_viewer(page, views, wishes);
+    add_overlays(page, views);
   }
   for (const RunView& view : views) {
     if (chapters) page.chapter(view.files.name);

@@ -88,7 +88,7 @@ void add_pictures(HtmlReport& page, const RunView& view, const PictureWishes& wi
     const std::string when = file->times().size() > 1 ? view.when(file->times()[k]) : "packing";
     pictures.push_back(
         {when, fmt::format("Side view of the layer, {}: spheres coloured by {}", when, colours.label),
-         draw_layer(layer, colours, settings)});
+         draw_layer(layer, colours, settings), file->times()[k]});
   }
   std::string text = "Seen from the side at one scale";
   if (settings.repeat > 1)

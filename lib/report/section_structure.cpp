@@ -43,7 +43,7 @@ void add_times(Plot& plot, const RunView& view, const std::vector<double>& time,
     Series s = curve(k);
     s.name = "slider";
     s.fixed_colour = "var(--mark)";
-    plot.frames.push_back({view.when(time[k]), {std::move(s)}});
+    plot.frames.push_back({view.when(time[k]), {std::move(s)}, time[k]});
   }
 }
 
@@ -133,7 +133,7 @@ void add_profiles(HtmlReport& page, const RunView& view) {
       values.push_back(rows_of(*file, fmt::format("/solids/size_class_{}/{}", c, name), time.rows, slices));
     if (std::none_of(values.begin(), values.end(), [](const Rows& r) { return bool(r); })) return;
     for (const std::size_t k : evenly_in_time(time.all(), time.rows > 1 ? 120 : 1)) {
-      PlotFrame frame{view.when(time.at(k)), {}};
+      PlotFrame frame{view.when(time.at(k)), {}, time.at(k)};
       for (std::size_t c = 0; c < values.size(); ++c)
         if (values[c])
           frame.series.push_back({class_name(borders, c),
@@ -280,7 +280,8 @@ void add_mobility(HtmlReport& page, const RunView& view) {
     for (const std::size_t k : evenly_in_time(time.all(), 120)) {
       PlotFrame frame{(start ? number_text(view.shown_time(start.at(k)), 4) + " to " : std::string("to ")) +
                           view.when(time.at(k)),
-                      {}};
+                      {},
+                      time.at(k)};
       for (std::size_t b = 0; b < bands; ++b)
         frame.series.push_back({band_name(b, bands),
                                 scaled(edges.all(), 1000),

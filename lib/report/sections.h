@@ -19,7 +19,7 @@ struct RunView {
   double shown_time(double milliseconds) const { return in_seconds ? milliseconds / 1000 : milliseconds; }
   std::vector<double> shown_times(std::vector<double> milliseconds) const;
   std::string when(double milliseconds) const;  // "0.125 s", all of one run in one unit
-  Axis time_axis() const { return {"time", in_seconds ? "s" : "ms", {}, {}, false, true}; }
+  Axis time_axis() const { return {"time", in_seconds ? "s" : "ms", {}, {}, false, true, in_seconds ? 1e-3 : 1}; }
   std::vector<MarkerLine> immobilisation_marker() const;
 };
 
@@ -31,6 +31,7 @@ struct PictureWishes {
 };
 void add_pictures(HtmlReport&, const RunView&, const PictureWishes&);
 void add_viewer(HtmlReport&, const std::vector<RunView>&, const PictureWishes&);  // interactive, all runs in one
+void add_overlays(HtmlReport&, const std::vector<RunView>&);  // curves of all runs, one plot each
 void add_packing(HtmlReport&, const RunView&);  // sizes, and how random the packing came out
 void add_dewatering(HtmlReport&, const RunView&);
 void add_development(HtmlReport&, const RunView&);  // thickness, solids, mass centre, pressures

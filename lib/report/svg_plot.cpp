@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/colour.h"
 #include "report/ticks.h"
 
 namespace pigment::report {
 namespace {
 
-constexpr double width = 640, right = 16, top = 14, bottom = 50;
+constexpr double page_width = 640, right = 16, bottom = 50;
 
 struct Scale {
   double low = 0, high = 1, begin = 0, end = 1;  // data range and the pixels it maps to
@@ -166,14 +167,14 @@ std::string series_group(const Series& s, std::size_t index, const Scale& x, con
   if (points)
     for (std::size_t i = 0; i < s.y.size(); ++i)
       if (std::isfinite(s.y[i]))
-        out += fmt::format(R"(<circle class="dot" cx="{}" cy="{}" r="3.2"/>)", px(x(s.x[i])), px(y(s.y[i])));
+        out += fmt::format(R"(<path class="dot" d="M{} {}h0"/>)", px(x(s.x[i])), px(y(s.y[i])));
   return out + "</g>";
 }
 
 std::string axes(const Plot& plot, const Scale& x, const Scale& y, const AxisTicks& along_x,
                  const AxisTicks& along_y) {
   const Ticks &x_ticks = along_x.ticks, &y_ticks = along_y.ticks;
-  std::string out;
+  std::string out = R"(<g class="ticks">)";
   const double floor = y.begin, ceiling = y.end;
   for (std::size_t i = 0; i < x_ticks.values.size(); ++i) {
     const double v = x_ticks.values[i];
@@ -187,6 +188,7 @@ std::string axes(const Plot& plot, const Scale& x, const Scale& y, const AxisTic
         R"(<path class="grid" d="M{0} {1}H{2}"/><text class="tick" x="{3}" y="{4}" text-anchor="end">{5}</text>)",
         px(x.begin), px(y(v)), px(x.end), px(x.begin - 8), px(y(v) + 4), y_ticks.labels[i]);
   }
+  out += "</g>";
   out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", px(x.begin), px(ceiling), px(floor),
                      px(x.end));
   out += fmt::format(R"(<text class="label" x="{}" y="{}" text-anchor="middle">{}</text>)",
@@ -203,14 +205,14 @@ std::string marker_lines(const Plot& plot, const Scale& x, const Scale& y) {
     const MarkerLine& m = plot.markers[i];
     if (plot.read_by_height) {
       out += fmt::format(
-          R"(<path class="marker" d="M{0} {1}H{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="end">{5}</text>)",
+          R"(<g class="marker-group" data-at="{1}"><path class="marker" d="M{0} {1}H{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="end">{5}</text></g>)",
           px(x.begin), px(y(m.value)), px(x.end), px(x.end - 4), px(y(m.value) - 5), html_escape(m.label));
       continue;
     }
     const double at = x(m.value);
     const bool flip = at > 0.62 * (x.begin + x.end);  // keep the label inside the plot
     out += fmt::format(
-        R"(<path class="marker" d="M{0} {1}V{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="{5}">{6}</text>)",
+        R"(<g class="marker-group" data-at="{0}"><path class="marker" d="M{0} {1}V{2}"/><text class="marker-label" x="{3}" y="{4}" text-anchor="{5}">{6}</text></g>)",
         px(at), px(y.begin), px(y.end), px(at + (flip ? -6 : 6)),
         px(y.end + 13 + 15 * static_cast<double>(i % 3)), flip ? "end" : "start", html_escape(m.label));
   }
@@ -236,21 +238,21 @@ std::string json_series(const std::vector<Series>& all) {
   return out + "]";
 }
 
-std::string json_scale(const Axis& a, const Scale& s) {
-  return fmt::format(R"({{"label":{},"unit":{},"low":{:.9g},"high":{:.9g},"begin":{},"end":{},"log":{}}})",
+std::string json_scale(const Axis& a, const Scale& s, int exponent) {
+  return fmt::format(R"({{"label":{},"unit":{},"low":{:.9g},"high":{:.9g},"begin":{},"end":{},"log":{},"exponent":{},"perMillisecond":{:.9g}}})",
                      json_string(a.label), json_string(a.unit), s.low, s.high, px(s.begin), px(s.end),
-                     s.logarithmic ? 1 : 0);
+                     s.logarithmic ? 1 : 0, exponent, a.per_millisecond);
 }
 
-std::string data_script(const Plot& plot, const Scale& x, const Scale& y) {
+std::string data_script(const Plot& plot, const Scale& x, const Scale& y, int x_exponent, int y_exponent) {
   std::string frames = "[";
   for (const PlotFrame& f : plot.frames) {
     if (frames.size() > 1) frames += ',';
-    frames += fmt::format(R"({{"label":{},"series":{}}})", json_string(f.label), json_series(f.series));
+    frames += fmt::format(R"({{"label":{},"time":{:.9g},"series":{}}})", json_string(f.label), f.time, json_series(f.series));
   }
   return fmt::format(
       R"(<script type="application/json">{{"x":{},"y":{},"byHeight":{},"series":{},"frames":{}]}}</script>)",
-      json_scale(plot.x, x), json_scale(plot.y, y), plot.read_by_height ? 1 : 0, json_series(plot.series),
+      json_scale(plot.x, x, x_exponent), json_scale(plot.y, y, y_exponent), plot.read_by_height ? 1 : 0, json_series(plot.series),
       frames);
 }
 
@@ -304,37 +306,93 @@ std::string json_string(const std::string& text) {
   return out + "\"";
 }
 
-std::string plot_figure(const Plot& plot, const std::string& id) {
-  const double floor = plot.height - bottom;
-  const Scale y = scale_for(plot, plot.y, false, floor, top);
-  const AxisTicks y_ticks = ticks_for(y, 5);
+namespace {
+
+// Scales, ticks and the SVG below its root, `width` wide with the curves' field beginning `top` from above.
+struct Drawing {
+  Scale x, y;
+  int x_exponent = 0, y_exponent = 0;
+  std::string content;
+};
+
+Drawing draw(const Plot& plot, const std::string& id, double width, double top, double height, bool last_frame) {
+  Drawing d;
+  d.y = scale_for(plot, plot.y, false, height - bottom, top);
+  const AxisTicks y_ticks = ticks_for(d.y, 5);
   // Room for the axis' title and the longest of its numbers, at 7.2 pixels a digit.
   std::size_t longest = 0;
   for (const std::string& label : y_ticks.ticks.labels) longest = std::max(longest, letters_in(label));
   const double left = std::max(54.0, 34 + 7.2 * static_cast<double>(longest));
-  const Scale x = scale_for(plot, plot.x, true, left, width - right);
+  d.x = scale_for(plot, plot.x, true, left, width - right);
+  const AxisTicks x_ticks = ticks_for(d.x, static_cast<int>(width / 100));
+  d.x_exponent = x_ticks.exponent, d.y_exponent = y_ticks.exponent;
+  d.content = fmt::format(R"(<clipPath id="{}-clip"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>)", id,
+                          px(d.x.begin), px(d.y.end - 4), px(d.x.end - d.x.begin + 4), px(d.y.begin - d.y.end + 8));
+  d.content += axes(plot, d.x, d.y, x_ticks, y_ticks) +
+               fmt::format(R"svg(<g clip-path="url(#{}-clip)"><g class="curves">)svg", id);
+  for (std::size_t i = 0; i < plot.series.size(); ++i) d.content += series_group(plot.series[i], i, d.x, d.y, false);
+  if (last_frame && !plot.frames.empty())
+    for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i)
+      d.content += series_group(plot.frames.back().series[i], plot.series.size() + i, d.x, d.y, true);
+  d.content += "</g></g>" + marker_lines(plot, d.x, d.y);
+  return d;
+}
+
+}  // namespace
+
+std::string plot_figure(const Plot& plot, const std::string& id) {
+  const Drawing d = draw(plot, id, page_width, 14, plot.height, true);
   std::string out =
       fmt::format(R"(<figure class="plot" id="{}"><figcaption>{}</figcaption>)", id, html_escape(plot.title));
   out += legend(plot);
   out +=
       fmt::format(R"(<div class="canvas"><svg viewBox="0 0 {} {}" role="img" tabindex="0" aria-label="{}">)",
-                  width, plot.height, html_escape(plot.title));
-  out += fmt::format(R"(<clipPath id="{}-clip"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>)", id,
-                     px(x.begin), px(y.end - 4), px(x.end - x.begin + 4), px(y.begin - y.end + 8));
-  out +=
-      axes(plot, x, y, ticks_for(x, 6), y_ticks) + fmt::format(R"svg(<g clip-path="url(#{}-clip)">)svg", id);
-  for (std::size_t i = 0; i < plot.series.size(); ++i) out += series_group(plot.series[i], i, x, y, false);
-  if (!plot.frames.empty())
-    for (std::size_t i = 0; i < plot.frames.back().series.size(); ++i)
-      out += series_group(plot.frames.back().series[i], plot.series.size() + i, x, y, true);
-  out += "</g>" + marker_lines(plot, x, y) +
-         R"(<g class="hover"></g></svg><div class="tip" hidden></div></div>)";
+                  page_width, plot.height, html_escape(plot.title));
+  out += d.content + R"(<g class="hover"></g></svg><div class="tip" hidden></div></div>)";
   if (plot.frames.size() > 1)
     out += fmt::format(
         R"(<label class="slider"><input type="range" min="0" max="{0}" value="{0}" step="1" aria-label="time"><output>{1}</output></label>)",
         plot.frames.size() - 1, html_escape(plot.frames.back().label));
   if (!plot.note.empty()) out += "<p class=\"note\">" + html_escape(plot.note) + "</p>";
-  return out + data_script(plot, x, y) + "</figure>\n";
+  return out + data_script(plot, d.x, d.y, d.x_exponent, d.y_exponent) + "</figure>\n";
+}
+
+std::string plot_file(const Plot& plot) {
+  constexpr double width = 440, millimetres = 85, row_height = 17;
+  // The legend in rows, at 6.8 pixels a letter.
+  const bool framed = plot.series.empty() && !plot.frames.empty();
+  const std::vector<Series>& shown = framed ? plot.frames.back().series : plot.series;
+  std::string keys;
+  double at = 0, row = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!shown[i].legend || shown[i].name.empty()) continue;
+    const double room = 44 + 6.8 * static_cast<double>(letters_in(shown[i].name));
+    if (at > 0 && at + room > width - right) at = 0, ++row;
+    const double y = 14 + row_height * row;
+    keys += fmt::format(R"(<path class="line{}" style="color:{}" d="M{} {}h20"/><text x="{}" y="{}">{}</text>)",
+                        shown[i].style == SeriesStyle::Dashed ? " dashed" : "", html_escape(colour_of(shown[i], i)), px(at + 6),
+                        px(y - 4), px(at + 31), px(y), html_escape(shown[i].name));
+    at += room;
+  }
+  const double top = keys.empty() ? 14 : 14 + row_height * (row + 1);
+  const double height = top - 14 + 0.88 * plot.height;
+  std::string out = fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{}mm" height="{}mm" viewBox="0 0 {} {}"><title>{}</title><style>)",
+      millimetres, px(millimetres * height / width), width, px(height), html_escape(plot.title));
+  out +=
+      "text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font-size:12.5px;fill:#222}.label{font-size:13px;fill:#000}"
+      ".grid{stroke:#e3e5e9;stroke-width:.8;fill:none}.axis{stroke:#222;stroke-width:1;fill:none}"
+      ".line{fill:none;stroke:currentColor;stroke-width:1.8;stroke-linejoin:round;stroke-linecap:round}.dashed{stroke-dasharray:6 5}"
+      ".bar{fill:none;stroke:currentColor;stroke-width:1.2}.dot{fill:none;stroke:currentColor;stroke-width:6.4;stroke-linecap:round}"
+      ".marker{stroke:#b3541e;stroke-width:1.1;stroke-dasharray:4 3;fill:none}.marker-label{fill:#b3541e}</style>";
+  out += R"(<rect width="100%" height="100%" fill="#fff"/>)" + keys +
+         draw(plot, "plot", width, top, height, framed).content + "</svg>\n";
+  // The page's variables, as colours.
+  for (std::size_t i = 0; i < 8; ++i) {
+    const std::string variable = fmt::format("var(--s{})", i + 1), hex = to_hex(series_colour(i, false));
+    for (std::size_t found; (found = out.find(variable)) != std::string::npos;) out.replace(found, variable.size(), hex);
+  }
+  return out;
 }
 
 }  // namespace pigment::report

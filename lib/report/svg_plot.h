@@ -13,6 +13,7 @@ struct Axis {
   std::optional<double> low, high;  // absent: from the data
   bool logarithmic = false;
   bool from_zero = false;  // widen the range to zero
+  double per_millisecond = 0;  // an axis of time: what a millisecond is in its unit; 0: none
 };
 
 enum class SeriesStyle { Line, Dashed, Points, LineAndPoints, Steps };
@@ -37,6 +38,7 @@ struct MarkerLine {
 struct PlotFrame {
   std::string label;           // "0.125 s"
   std::vector<Series> series;  // same number in every frame
+  double time = 0;             // ms; what shows times of the page moves together
 };
 
 struct Plot {
@@ -51,6 +53,10 @@ struct Plot {
 
 // The whole figure: title, legend, drawing, slider, note, data. id: unique on the page, letters and digits.
 std::string plot_figure(const Plot&, const std::string& id);
+
+// The drawing as a file of its own, for print: 85 mm wide (a column), 7 pt, legend above the axes, colours for light paper.
+// The frames of a slider are not there but for the last, where the plot has no other curves.
+std::string plot_file(const Plot&);
 
 // "&", "<", ">" and quotes as entities; control characters dropped.
 std::string html_escape(const std::string&);

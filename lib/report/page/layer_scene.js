@@ -66,6 +66,8 @@ void main() {
   gl_FragColor = vec4(pow(pow(v_tint, vec3(2.2)) * light, vec3(1.0 / 2.2)), 1.0);
 }`;
 
+THREE.ColorManagement.enabled = false;  // colours are the screen's own numbers all the way
+
 const cuts_shared = {cut_low: {value: new THREE.Vector3()}, cut_high: {value: new THREE.Vector3()}};
 
 class LayerScene {

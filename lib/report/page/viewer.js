@@ -26,7 +26,6 @@ class Viewer {
     this.frames = runs.map(data => data.times.length - 1);
     this.longest = runs.reduce((a, b) => (b.times.at(-1) > a.times.at(-1) ? b : a));
     this.picked = {run: 0, i: -1};
-    THREE.ColorManagement.enabled = false;  // the shaders and materials give the screen's own numbers
     this.renderer = new THREE.WebGLRenderer({canvas, context, antialias: true});
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);
@@ -157,9 +156,13 @@ class Viewer {
 
   // Coarse while it moves, then once finely: twice the screen's pixels, for smooth edges.
   draw_soon() {
+    this.changed_at = (this.changed_at ?? 0) + 1;
     if (!this.waiting) this.waiting = requestAnimationFrame(() => { this.waiting = null; this.draw(1); });
     clearTimeout(this.settled);
-    this.settled = setTimeout(() => this.draw(2), 160);
+    this.settled = setTimeout(() => {
+      this.draw(2);
+      this.settled_at = this.changed_at;
+    }, 160);
   }
 
   draw(fineness) {
