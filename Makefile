@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench speed accuracy studies claims install clean format page-libraries help dependencies configure FORCE
+.PHONY: all build test bench speed accuracy studies claims install clean format page-libraries deb help dependencies configure FORCE
 
 all: study-drying
 	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
@@ -29,6 +29,7 @@ help:
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make accuracy        measure errors and cost of the resistance models, write docs/accuracy.md'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
+	@echo 'make deb             a Debian package of the same, in $(BUILD)'
 	@echo 'make format          clang-format over lib, tools and tests'
 	@echo 'make page-libraries  rebuild the JavaScript libraries inside the report from npm'
 	@echo 'make clean           remove $(BUILD), results of studies included'
@@ -67,6 +68,10 @@ accuracy: study-hydrodynamics
 
 install: build
 	DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)'
+
+# A Debian package of what install puts in place: $(BUILD)/pigment_VERSION_ARCHITECTURE.deb
+deb: build
+	cd $(BUILD) && cpack -G DEB
 
 # ---- studies
 # Results live in $(BUILD)/studies/STUDY/CASE; workflows/rules.mk says how each file is made.

@@ -11,6 +11,7 @@
 #include <new>
 #include <optional>
 
+#include "app/manual.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/version.h"
@@ -186,6 +187,13 @@ std::optional<int> parse(CommandLine& line, const std::string& name, int argc, c
       "4 the output cannot be written; 128+n ended by signal n.";
   app.footer(footer);
   app.get_formatter()->column_width(34);
+  // For the build, which keeps what they print; no user needs them.
+  const std::string wish = argc == 2 ? argv[1] : "";
+  if (wish == "--print-man-page" || wish == "--print-completion") {
+    std::cout << (wish == "--print-completion" ? bash_completion(app)
+                                               : man_page(app, line.data->example, line.data->references));
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

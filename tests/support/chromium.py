@@ -17,7 +17,7 @@ def find():
 
 
 class Chromium:
-    def __init__(self, webgl=True, dark=False, width=1280, height=900):
+    def __init__(self, webgl=True, dark=False, width=1280, height=900, graphics="software"):
         self.size, self.dark = (width, height), dark
         self.folder = tempfile.mkdtemp(prefix="chromium-")
         to_browser, self.write_end = os.pipe()
@@ -25,8 +25,8 @@ class Chromium:
         flags = ["--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--user-data-dir=" + self.folder, "--no-first-run",
                  "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync",
                  "--hide-scrollbars", "--force-device-scale-factor=1", f"--window-size={width},{height}"]
-        # Software rendering, as there may be no graphics card.
-        flags += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else \
+        # Software rendering, the same everywhere; graphics="any": a graphics card where there is one.
+        flags += ["--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"] if graphics == "any" else ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else \
             ["--disable-gpu", "--disable-3d-apis"]
 
         def give_pipes():  # Chromium reads descriptor 3 and writes 4

@@ -1,10 +1,11 @@
-"""report_page.py PAGE [FOLDER]: opens pigment-report's page from disk and uses it as a reader would. Ends with status 1 and a
+"""report_page.py PAGE CLUSTER.h5 [FOLDER]: opens pigment-report's page from disk and uses it as a reader would. Ends with status 1 and a
 message where it does not answer. FOLDER: where screenshots are kept.
 """
 import os
 import sys
 
 import chromium
+import h5py
 
 DIFFERENCE = """async (one, two) => {
   const pixels = async data => {
@@ -77,6 +78,13 @@ def with_webgl(file, folder, dark):
             check("complaints: " + "; ".join(page.complaints()), not page.complaints())
             return
 
+        # Clusters as pigment-cluster finds them. Places are rounded, by less than a nanometre here, so pairs whose separation
+        # lies that near to the threshold may count here and not there: about one in a hundred.
+        for k, (connections, clustered) in enumerate(EXPECTED):
+            found = page.evaluate(f"(c => [c.first.length, c.clustered])(document.querySelector('figure.viewer').viewer.runs[0].clusters({k}, 0.02))")
+            check(f"frame {k}: {found} connections and clustered particles, {[connections, clustered]} in the file",
+                  abs(found[0] - connections) <= 2 + 0.02 * connections and abs(found[1] - clustered) <= 2 + 0.02 * clustered)
+
         # Time: the slider moves the view, the profiles and the line in the curves.
         profile = "document.querySelector('figure.plot .current .line').getAttribute('d')"
         before = page.evaluate(profile), text(".viewer label.slider output")
@@ -90,16 +98,20 @@ def with_webgl(file, folder, dark):
         check("the view follows a profile's slider", page.evaluate("document.querySelector('.viewer [data-is=time]').value") == "2")
         reader.changed("profile-slider", 0.005)
 
+        by_size = reader.last
         for colour in page.evaluate("[...document.querySelectorAll('[data-is=colour] option')].map(o => o.value)"):
             if colour != "size":
                 reader.set(".viewer [data-is=colour]", colour, "change")
+                reader.last = by_size
                 reader.changed("colour-" + colour, 0.005)
         reader.set(".viewer [data-is=connections]", True)
         reader.set(".viewer [data-is=scale]", 0.4)
         reader.changed("connections", 0.02)
         reader.set(".viewer [data-is=clusters_only]", True)
-        reader.changed("clusters-only", 0.003)
-        check("clusters are counted", "clusters" in text(".viewer .found"))
+        reader.changed("clusters-only", 0.0003)
+        shown = page.evaluate("document.querySelector('figure.viewer').viewer.layers[0].radius.array.filter(r => r > 0).length")
+        check(f"{shown} particles are drawn, those of clusters: " + text(".viewer .found"), f" {shown} of 300 particles in them" in text(".viewer .found"))
+        check("which are not all", 0 < shown < 300)
         reader.set(".viewer [data-is=clusters_only]", False)
         reader.set(".viewer [data-is=connections]", False)
         reader.set(".viewer [data-is=scale]", 1)
@@ -174,7 +186,10 @@ def without_webgl(file, folder):
         check("complaints: " + "; ".join(page.complaints()), not page.complaints())
 
 
-file, folder = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
+file, folder = sys.argv[1], sys.argv[3] if len(sys.argv) > 3 else None
+with h5py.File(sys.argv[2]) as f:
+    EXPECTED = [(int(c), round(float(share) * f["cluster/size"].shape[1]))
+                for c, share in zip(f["cluster/connections"], f["cluster/clustered_fraction"])]
 if folder:
     os.makedirs(folder, exist_ok=True)
 with_webgl(file, folder, dark=False)

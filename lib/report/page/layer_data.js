@@ -60,10 +60,10 @@ class LayerData {
     return this.positions_now = out;
   }
   // um/s
-  velocity(k, i) { return [0, 1, 2].map(axis => half_numbers[this.velocities[k][axis * this.count + i]]); }
+  velocity_of(k, i) { return [0, 1, 2].map(axis => half_numbers[this.velocities[k][axis * this.count + i]]); }
   speeds(k) {
     const out = new Float32Array(this.count);
-    for (let i = 0; i < this.count; ++i) out[i] = Math.hypot(...this.velocity(k, i));
+    for (let i = 0; i < this.count; ++i) out[i] = Math.hypot(...this.velocity_of(k, i));
     return out;
   }
 

@@ -26,6 +26,7 @@ class Viewer {
     this.frames = runs.map(data => data.times.length - 1);
     this.longest = runs.reduce((a, b) => (b.times.at(-1) > a.times.at(-1) ? b : a));
     this.picked = {run: 0, i: -1};
+    this.coarseness = 1, this.moved_at = -Infinity;
     this.renderer = new THREE.WebGLRenderer({canvas, context, antialias: true});
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);
@@ -154,10 +155,17 @@ class Viewer {
     return this.shown.map((r, at) => ({r, x: (at % columns) * w, y: (rows - 1 - Math.floor(at / columns)) * h, w, h}));
   }
 
-  // Coarse while it moves, then once finely: twice the screen's pixels, for smooth edges.
+  // While it moves at most at the screen's pixels, coarser where the machine does not keep up; then once finely: twice the
+  // screen's pixels, for smooth edges.
   draw_soon() {
     this.changed_at = (this.changed_at ?? 0) + 1;
-    if (!this.waiting) this.waiting = requestAnimationFrame(() => { this.waiting = null; this.draw(1); });
+    if (!this.waiting) this.waiting = requestAnimationFrame(now => {
+      this.waiting = null;
+      const since = now - this.moved_at;
+      this.moved_at = now;
+      if (since < 1500) this.coarseness = Math.min(1, Math.max(0.25, this.coarseness * (since > 70 ? 0.75 : since < 25 ? 1.2 : 1)));
+      this.draw(this.coarseness);
+    });
     clearTimeout(this.settled);
     this.settled = setTimeout(() => {
       this.draw(2);
@@ -217,7 +225,7 @@ class Viewer {
     if (data.species.length) lines.push(["species", data.species[data.species_of[i]]]);
     lines.push(["position", row([p[i], p[n + i], p[2 * n + i]]) + " µm"]);
     if (data.velocity) {
-      const v = data.velocity(k, i);
+      const v = data.velocity_of(k, i);
       lines.push(["velocity", row(v) + " µm/s"], ["speed", round_number(Math.hypot(...v)) + " µm/s"]);
     }
     if (data.run_speed) lines.push(["over the run", round_number(data.run_speed[i]) + " µm/s"]);

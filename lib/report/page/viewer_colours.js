@@ -27,7 +27,8 @@ const values_of = (data, name, k, threshold) => {
   if (name === "height") return {values: data.positions(k).subarray(2 * n, 3 * n), low: 0, high: data.z_top};
   if (name === "velocity") return {values: data.speeds(k), log: true, usual: true};
   if (name === "run_velocity") return {values: data.run_speed, log: true, usual: true};
-  return {values: data.clusters(k, threshold).size, log: true, low: 1};
+  const {size, largest} = data.clusters(k, threshold);
+  return {values: size, log: true, low: 1, high: Math.max(2, largest)};
 };
 
 // All runs shown share one scale. Returns colours (3 bytes a particle) one a run, and a legend.
