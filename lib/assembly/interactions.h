@@ -22,6 +22,9 @@ struct Interactions {
 
   bool lubrication() const { return hydrodynamics.model != resistance::HydrodynamicsParameters::Model::Drag; }
   bool hindered() const { return hydrodynamics.drag == resistance::HydrodynamicsParameters::Drag::Hindered; }
+  bool pressure_limited() const {
+    return free_surface && free_surface->model == forces::FreeSurfaceParameters::Model::PressureLimited;
+  }
   // Rotation is worth solving for only where something couples to it.
   bool rotation() const { return hydrodynamics.rotation && lubrication(); }
 };

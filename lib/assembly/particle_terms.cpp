@@ -93,11 +93,10 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
         t.spin_along += mu * w.twist;
         t.spin_across += mu * w.rolling;
         t.along += mu * s.resistance;
-        const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
-        f[2] -= mu * s.resistance * (film_.absorption + (squeeze ? 0 : film_.evaporation));
+        f[2] -= mu * s.resistance * approach_speed();
       }
       // protrusion at the end: p1 = z0 + a + dt U_z + roughness - H1
-      const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - film_.height_end;
+      const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - surface_end_;
       if (s.stiffness > 0) {
         f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
         t.along += dt_ * s.stiffness;
@@ -109,6 +108,27 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
   }
 }
 
+double StepAssembly::approach_speed() const {
+  const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
+  const double fall = film_.absorption + film_.evaporation;
+  const double share = squeeze && fall > 0 ? film_.absorption / fall : 1;
+  // A pressure-limited surface may lag behind what the dewatering takes.
+  return interactions_.pressure_limited() ? share * (film_.height_begin - surface_end_) / dt_ : squeeze ? film_.absorption : fall;
+}
+
+// What the surface presses with: hydrodynamic, springs, and what holds those that are held.
+double StepAssembly::surface_pressure(const std::vector<double>& u) const {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  double force = 0;
+  for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
+    const SurfaceState s = surface_state(k);
+    force += liquid_.viscosity * s.resistance * (u[k * D + 2] + approach_speed());
+    if (s.stiffness > 0) force += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
+    if (protrusion_guess_[k] == held) force += holding_force_[k];
+  }
+  return force / cell_.area();
+}
+
 BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u) const {
   const std::size_t D = interactions_.rotation() ? 6 : 3;
   const double mu = liquid_.viscosity;
@@ -117,14 +137,7 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
   for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
     const double uz = u[k * D + 2];
     if (!flow_) total.liquid -= mu * resistance::stokes_drag(radius_[k]) * (uz + film_.absorption);
-    if (interactions_.free_surface) {
-      const SurfaceState s = surface_state(k);
-      const bool squeeze = interactions_.free_surface->approach == forces::FreeSurfaceParameters::Approach::Squeeze;
-      total.surface += mu * s.resistance * (uz + film_.absorption + (squeeze ? 0 : film_.evaporation));
-      if (s.stiffness > 0) total.surface += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
-      if (protrusion_guess_[k] == held) total.surface += holding_force_[k];
-      if (protrusion_guess_[k] > 0) ++total.contacts;
-    }
+    if (interactions_.free_surface && protrusion_guess_[k] > 0) ++total.contacts;
     if (interactions_.substrate) {
       const SubstrateState s = substrate_state(k);
       const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
@@ -136,7 +149,7 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
       }
     }
   }
-  total.surface /= cell_.area();
+  if (interactions_.free_surface) total.surface = surface_pressure(u);
   total.substrate /= cell_.area();
   total.liquid /= cell_.area();
   return total;

@@ -62,6 +62,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
       substrate_geometry_[k] = {0, radius_[k], std::numeric_limits<double>::infinity(), potential[k],
                                 interactions.substrate->surface_potential.value_or(potential[k])};
   }
+  if (interactions.pressure_limited()) entry_pressure_ = forces::entry_pressure(*interactions.free_surface, radius_);
   if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height);
   normal_.resize(pairs_.size());
   gap_begin_.resize(pairs_.size());
@@ -82,6 +83,12 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
 void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liquid& liquid, double dt, Treatment treatment,
                          const Vec3Array& force, const std::vector<double>& protrusion) {
   film_ = film;
+  surface_end_ = film.height_end;
+  if (interactions_.pressure_limited()) {
+    const double fall = dt * (film.absorption + film.evaporation);
+    search_ = SurfaceSearch(film.height_end, film.height_guess, 0.25 * std::max(fall, 1e-3 * interactions_.free_surface->roughness), entry_pressure_);
+    surface_end_ = search_.height();
+  }
   liquid_ = liquid;
   dt_ = dt;
   implicit_ = treatment != Treatment::Explicit;
@@ -208,7 +215,18 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   const int chunks = topology_.chunks().count();
   std::vector<GapCheck> checks(chunks);
   std::vector<double> row;
-  if (interactions_.free_surface) solve::apply(system, u, row);
+  double pressure = 0;
+  if (interactions_.free_surface) {
+    solve::apply(system, u, row);
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < radius_.size(); ++k) {
+      const bool is_held = protrusion_guess_[k] == held;
+      protrusion_end_[k] = is_held ? 0 : position_[k].z() + dt_ * u[k * D + 2] + radius_[k] + interactions_.free_surface->roughness - surface_end_;
+      // What the row leaves is the force that keeps the particle at the surface.
+      if (is_held) holding_force_[k] = system.right_hand_side[k * D + 2] - row[k * D + 2];
+    }
+    if (interactions_.pressure_limited()) pressure = surface_pressure(u);
+  }
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
@@ -248,14 +266,10 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         }
       }
       if (interactions_.free_surface) {
-        const double protrusion = z + a + interactions_.free_surface->roughness - film_.height_end;
-        protrusion_end_[k] = protrusion;
+        const double protrusion = z + a + interactions_.free_surface->roughness - surface_end_;
         double& guess = protrusion_guess_[k];
         const double before = guess;
         if (guess == held) {
-          protrusion_end_[k] = 0;
-          // What the row leaves is the force that keeps the particle at the surface.
-          holding_force_[k] = system.right_hand_side[k * D + 2] - row[k * D + 2];
           if (holding_force_[k] < 0) guess = 0;  // the surface lets go
           else if (holding_force_[k] > forces::rigid_load(*interactions_.free_surface, a)) guess = 2 * forces::rigid_protrusion;
         } else if (guess > 0) {
@@ -281,6 +295,12 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       all.worst_pair = check.worst_pair;
     }
   }
+  // Once the rest agrees at this height of the surface.
+  if (interactions_.pressure_limited() && !all.refine && !all.crossed && !search_.settle(pressure)) {
+    surface_end_ = search_.height();
+    all.refine = true;
+  }
+  all.surface_height = surface_end_;
   return all;
 }
 

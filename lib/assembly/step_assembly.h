@@ -12,6 +12,7 @@
 
 #include "assembly/interactions.h"
 #include "assembly/slice_flow.h"
+#include "assembly/surface_search.h"
 #include "model/particles.h"
 #include "neighbours/neighbour_list.h"
 #include "resistance/pair_lubrication.h"
@@ -22,6 +23,8 @@ namespace pigment::assembly {
 // The surroundings of a step, constant or averaged over it. Velocities in um/ms, upwards positive.
 struct Film {
   double height_begin = 0, height_end = 0;  // of the free surface, um; unused without one
+  // Of a pressure-limited surface height_end is the lowest that it can stand at; it is sought from here.
+  double height_guess = 0;
   double absorption = 0;                    // q: the liquid moves with -q e_z
   double evaporation = 0;                   // e
 };
@@ -37,6 +40,7 @@ struct BoundaryPressures {
 struct GapCheck {
   bool refine = false;         // solve again
   bool crossed = false;        // some gap that was open came out closed
+  double surface_height = 0;   // at the end of the step, um
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
 };
@@ -84,6 +88,8 @@ class StepAssembly {
   SurfaceState surface_state(int k) const;
   SubstrateState substrate_state(int k) const;
   resistance::SqueezeStep wall_squeeze(int k) const;  // the whole perpendicular term of the substrate
+  double approach_speed() const;  // of the surface towards particles at rest, um/ms
+  double surface_pressure(const std::vector<double>& solution) const;
 
   const Interactions& interactions_;
   Cell cell_;
@@ -105,6 +111,9 @@ class StepAssembly {
   std::optional<SliceFlow> flow_;
   std::vector<Vec3> normal_;               // one a pair
   std::vector<double> gap_begin_;          // one a pair
+  SurfaceSearch search_;                   // of a pressure-limited surface
+  double surface_end_ = 0;                 // height at the step's end, um
+  double entry_pressure_ = 0;              // of air into the pores, pN/um^2; pressure-limited only
   // What each particle is to the surface: free (0), held exactly (`held`), or lifted on the spring by so much, um; and how it
   // came out, with the force of those held, pN.
   static constexpr double held = 1e-12;

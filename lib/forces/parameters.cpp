@@ -27,11 +27,13 @@ FreeSurfaceParameters read_free_surface(config::Node node) {
   p.roughness = node.quantity("roughness", Dimension::Length, "2 nm", config::positive());
   p.elongation = node.choice<P::Elongation>("elongation", {{"arc", P::Elongation::Arc}, {"arc_minus_chord", P::Elongation::ArcMinusChord}}, "arc");
   p.approach = node.choice<P::Approach>("approach", {{"interface", P::Approach::Interface}, {"squeeze", P::Approach::Squeeze}}, "interface");
-  if (p.model == P::Model::PressureLimited) node.error("model", "\"pressure_limited\" is not available in this version; use spring or constraint");
-  if (p.model == P::Model::PressureLimited)
+  if (p.model != P::Model::PressureLimited) {
+    if (node.has("max")) node.error("max", "is a limit of model: pressure_limited; the model here is another");
+  } else if (node.is_word("max", "auto") || !node.has("max")) {
+    node.accept_word("max", "auto");
+  } else {
     p.max_pressure = node.quantity("max", Dimension::Pressure, config::positive());
-  else if (node.has("max"))
-    node.error("max", "is a limit of model: pressure_limited; the model here is another");
+  }
   return p;
 }
 

@@ -34,7 +34,7 @@ struct FreeSurfaceParameters {
   double roughness = 0.002;        // um
   Elongation elongation = Elongation::Arc;
   Approach approach = Approach::Interface;  // resistance acts on U_z + q + e (source), or on U_z + q (exact squeeze)
-  double max_pressure = 0;         // pN/um^2, pressure_limited only
+  std::optional<double> max_pressure;  // pN/um^2, pressure_limited only; absent: entry_pressure below
 };
 FreeSurfaceParameters read_free_surface(config::Node);
 

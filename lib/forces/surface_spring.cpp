@@ -19,4 +19,14 @@ double rigid_load(const FreeSurfaceParameters& p, double a) {
   return surface_spring(p, a, rigid_protrusion).force;
 }
 
+double entry_pressure(const FreeSurfaceParameters& p, const std::vector<double>& radius) {
+  if (p.max_pressure) return *p.max_pressure;
+  double surface = 0, volume = 0;
+  for (double a : radius) {
+    surface += 3 * a * a;
+    volume += a * a * a;
+  }
+  return p.surface_tension * surface / volume;
+}
+
 }  // namespace pigment::forces

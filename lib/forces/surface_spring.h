@@ -1,6 +1,8 @@
 #pragma once
 // Surface tension on a particle that sticks out of the free surface, (14)-(15) of [sand2010]: F = sigma Delta(h), h the
 // height by which it sticks out, downwards on the particle.
+#include <vector>
+
 #include "forces/parameters.h"
 
 namespace pigment::forces {
@@ -19,6 +21,11 @@ SpringForce surface_spring(const FreeSurfaceParameters&, double radius, double p
 inline constexpr double rigid_protrusion = 1e-5;  // um
 // The load up to which the particle is held exactly, pN; infinite for model `constraint`.
 double rigid_load(const FreeSurfaceParameters&, double radius);
+
+// Pressure at which air enters the pores between these spheres and the surface no longer follows the liquid, pN/um^2: the
+// scene's, or sigma times the solids' surface over their volume, 6 sigma/d32. Wetting liquid in a bed of solids phi holds against
+// phi/(1 - phi) times that [white1982]: this is its value at phi = 1/2.
+double entry_pressure(const FreeSurfaceParameters&, const std::vector<double>& radius);
 
 // Slope with which the substrate pushes back a sphere that no other force keeps off it, pN/um.
 inline constexpr double contact_stiffness = 1e8;

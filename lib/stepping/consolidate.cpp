@@ -53,8 +53,9 @@ double smallest_gap(const Problem& problem, const RunState& state) {
   return gap == std::numeric_limits<double>::max() ? problem.cell.width_x : gap;
 }
 
+// height: of the surface; drained: what the dewatering leaves, lower where a pressure-limited surface lags.
 // Pressures, step and iterations are means over the frame's interval, the smallest gap its minimum; the rest is of the instant.
-std::vector<double> observe(const Problem& problem, const RunState& state, double height) {
+std::vector<double> observe(const Problem& problem, const RunState& state, double height, double drained) {
   const auto& radius = problem.particles.radius;
   const std::vector<double>& sum = state.interval;
   const bool surface = problem.interactions.free_surface.has_value();
@@ -62,7 +63,7 @@ std::vector<double> observe(const Problem& problem, const RunState& state, doubl
   double solid_mass = 0;
   for (double m : problem.particles.mass) solid_mass += m;
   // Below the surface; without one, below the top of the highest particle.
-  const double liquid_volume = std::max(0.0, problem.cell.area() * thickness - solids_volume(radius));
+  const double liquid_volume = std::max(0.0, problem.cell.area() * (surface ? drained : thickness) - solids_volume(radius));
   const bool stepped = sum[Steps] > 0;
   std::vector<double> observables = {
           thickness,
@@ -110,13 +111,17 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
   Stepper stepper(problem, state);
   const bool surface = problem.interactions.free_surface.has_value();
   const auto window = static_cast<std::size_t>(std::max(1.0, std::ceil(problem.stepping.immobile_window / settings.output_every - 1e-9)));
-  const auto store_frame = [&](double height) {
+  const bool lags = problem.interactions.pressure_limited();
+  const auto store_frame = [&] {
+    const double drained = stepper.height_at(state.time), height = lags ? state.surface_height : drained;
     if (state.frame > 0) {
       state.redistribution.push_back(redistribution_between(state.frame_position, state.position, problem.particles.radius,
                                                             state.frame_height, height));
+      // A surface that lags is held against what the dewatering takes.
+      if (lags) state.redistribution.back().fall = stepper.height_at(static_cast<double>(state.frame - 1) * settings.output_every) - drained;
       if (state.redistribution.size() > window) state.redistribution.pop_front();
     }
-    const std::vector<double> observables = observe(problem, state, height);
+    const std::vector<double> observables = observe(problem, state, height, drained);
     ++state.frame;
     callbacks.on_frame(state, height, observables);
     state.frame_position = state.position;
@@ -126,7 +131,7 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
   };
   if (state.frame == 0) {
     state.interval = empty_interval();
-    store_frame(stepper.height_at(0));
+    store_frame();
   }
   // Frame k stands at k * every, computed as a product so that no rounding builds up; the last one at `until`.
   for (;;) {
@@ -148,8 +153,7 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
       state.time = next_frame;
     }
     if (state.time < next_frame) continue;
-    const double height = stepper.height_at(state.time);
-    const std::vector<double> observables = store_frame(height);
+    const std::vector<double> observables = store_frame();
     if (!surface) continue;
     if (observables[static_cast<int>(Observable::ProtrudingFraction)] > problem.stepping.protruding_limit)
       return "first_critical_concentration";

@@ -24,7 +24,7 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
     redistributions.push_back(r.fall);
     redistributions.insert(redistributions.end(), r.residual.begin(), r.residual.end());
   }
-  return {{"scalars", {time, preferred_step, last_step, frame_height, list_temperature}},
+  return {{"scalars", {time, preferred_step, last_step, frame_height, list_temperature, surface_height, surface_velocity}},
           {"position", flat(position)},
           {"velocity", flat(velocity)},
           {"angular_velocity", flat(angular_velocity)},
@@ -48,6 +48,8 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.last_step = scalars.at(2);
   s.frame_height = scalars.at(3);
   s.list_temperature = scalars.at(4);
+  s.surface_height = scalars.at(5);
+  s.surface_velocity = scalars.at(6);
   s.step = i.at("counters").at(0);
   s.frame = i.at("counters").at(1);
   s.solver_factor = i.at("solver_factor");

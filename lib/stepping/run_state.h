@@ -22,6 +22,8 @@ struct RunState {
   Vec3Array angular_velocity;       // 1/ms; zero without rotation
   Vec3Array previous_velocity;      // of the step before: extrapolated for the next starting guess
   Vec3Array previous_angular_velocity;
+  double surface_height = 0;        // um, of the free surface: the dewatering's, or where a pressure-limited one lags behind
+  double surface_velocity = 0;      // um/ms, of the last step
   std::vector<double> protrusion;   // guess for the free surface, um
   Vec3Array list_reference;         // positions at which the neighbour list was made
   double list_temperature = 0;      // K, of the liquid then: ranges follow it

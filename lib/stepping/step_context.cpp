@@ -13,7 +13,8 @@
 namespace pigment::stepping {
 
 namespace {
-constexpr int most_refinements = 25;
+// Beside them a pressure-limited surface looks for its height, and the rest follows each time.
+constexpr int most_refinements = 25, most_with_search = 60;
 }
 
 StepContext::StepContext(const Problem& problem, const RunState& state) : problem_(problem) {
@@ -31,10 +32,15 @@ double StepContext::height_at(double t) const {
   return problem_.cell.height - problem_.dewatering.absorbed_at(t) - problem_.dewatering.evaporated_at(t);
 }
 
-assembly::Film StepContext::film(double begin, double end) const {
+assembly::Film StepContext::film(const StepStart& start) const {
+  const double begin = start.time, end = start.time + start.step;
   assembly::Film f;
   f.height_begin = height_at(begin);
   f.height_end = height_at(end);
+  if (problem_.interactions.pressure_limited()) {
+    f.height_begin = start.surface_height;
+    f.height_guess = start.surface_height + start.step * start.surface_velocity;
+  }
   if (!problem_.dewatering.time.empty()) {
     f.absorption = problem_.dewatering.mean_absorption_flux(begin, end);
     f.evaporation = problem_.dewatering.mean_evaporation_flux(begin, end);
@@ -105,10 +111,10 @@ std::vector<double> StepContext::gaps(const Vec3Array& position) const {
   return gap;
 }
 
-double StepContext::height_within(std::size_t k, double z, double safe_z, double time) const {
+double StepContext::height_within(std::size_t k, double z, double safe_z, double surface) const {
   const auto& interactions = problem_.interactions;
   const double a = problem_.particles.radius[k];
-  if (interactions.free_surface) z = std::min(z, std::max(safe_z, height_at(time) - a - interactions.free_surface->roughness));
+  if (interactions.free_surface) z = std::min(z, std::max(safe_z, surface - a - interactions.free_surface->roughness));
   if (interactions.substrate && safe_z > a) z = std::max(z, a + nearest_share * (safe_z - a));
   return z;
 }
@@ -157,10 +163,11 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   gap_scale_ = gap_scale(problem_.interactions, liquid);
   const Vec3Array force = noisy ? brownian_force(start.number, start.step, liquid) : Vec3Array{};
   const solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
-  assembly_->begin(start.position, film(start.time, start.time + start.step), liquid, start.step, treatment, force, start.protrusion);
+  assembly_->begin(start.position, film(start), liquid, start.step, treatment, force, start.protrusion);
   StepSolution s;
   s.velocity = std::move(guess);
-  for (int pass = 0; pass < most_refinements; ++pass) {
+  const int most = problem_.interactions.pressure_limited() ? most_with_search : most_refinements;
+  for (int pass = 0; pass < most; ++pass) {
     assembly_->build(system_);
     s.solve = solver_.solve(system_, s.velocity, options);
     s.iterations += s.solve.iterations;

@@ -20,6 +20,7 @@ struct StepStart {
   double time = 0;                        // ms
   double step = 0;                        // ms
   std::int64_t number = 0;                // of the step: names its noise
+  double surface_height = 0, surface_velocity = 0;  // of a pressure-limited surface at the beginning, um and um/ms
 };
 
 // Velocities of one solve and what they say of the step.
@@ -40,6 +41,10 @@ class StepContext {
   const Problem& problem() const { return problem_; }
   Liquid liquid_at_time(double time) const;
   double height_at(double time) const;  // um; the cell's own height where there is no free surface
+  // Where the surface stands after a step that ends at `time`: the dewatering's height, or above it where it is pressure-limited.
+  double surface_height(const StepSolution& solution, double time) const {
+    return problem_.interactions.pressure_limited() ? solution.check.surface_height : height_at(time);
+  }
   // Makes the neighbour list anew where the state's positions have spent it, and records in the state what it was made from.
   void refresh_list(RunState&);
 
@@ -60,7 +65,7 @@ class StepContext {
   // The height z of a particle, brought back between the surface (or the height safe_z, where that is above it) and a fifth of
   // the gap that safe_z leaves to the substrate.
   static constexpr double nearest_share = 0.2;
-  double height_within(std::size_t particle, double z, double safe_z, double time) const;
+  double height_within(std::size_t particle, double z, double safe_z, double surface) const;
   // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
   // gap + Debye length.
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;
@@ -76,7 +81,7 @@ class StepContext {
   std::string describe_failure(const RunState&, double dt, const StepSolution&) const;
 
  private:
-  assembly::Film film(double begin, double end) const;
+  assembly::Film film(const StepStart&) const;
   void make_list(const Vec3Array& reference, const Liquid&);
   Vec3Array brownian_force(std::int64_t step, double dt, const Liquid&) const;
 

@@ -44,7 +44,9 @@ StepReport Stepper::advance(RunState& state, double longest) {
       report.error = error;
       report.smallest_gap = attempt.last.check.smallest_gap;
       report.pressures = attempt.last.pressures;
-      report.height = context_.height_at(state.time + dt);
+      report.height = context_.surface_height(attempt.last, state.time + dt);
+      state.surface_velocity = (report.height - state.surface_height) / dt;
+      state.surface_height = report.height;
       state.previous_velocity = std::move(state.velocity);
       state.previous_angular_velocity = std::move(state.angular_velocity);
       state.velocity = std::move(attempt.velocity);
@@ -80,7 +82,7 @@ RunState initial_state(const Problem& problem, const Vec3Array& position) {
   s.position = s.list_reference = s.frame_position = position;
   s.velocity = s.angular_velocity = s.previous_velocity = s.previous_angular_velocity = Vec3Array(n, Vec3::Zero());
   s.protrusion.assign(n, 0.0);
-  s.frame_height = problem.cell.height;
+  s.frame_height = s.surface_height = problem.cell.height;
   s.preferred_step = Stepper::first_step(problem);
   s.list_temperature = problem.dewatering.temperature_at(0, problem.interactions.liquid.temperature);
   return s;

@@ -146,7 +146,7 @@ TEST(Scene, BlocksAreCheckedAgainstEachOther) {
   EXPECT_NE(refusal(whole, "scene", {"dewatering.strategy=EVA", "dewatering.evaporation.high=0 g/m2/s", "dewatering.evaporation.low=0 g/m2/s"})
                 .find("s.yaml:25: dewatering.final_solids: the fluxes remove no liquid"),
             std::string::npos);
-  EXPECT_NE(refusal(whole, "scene", {"free_surface.model=pressure_limited"}).find("free_surface.max: missing"),
+  EXPECT_NE(refusal(whole, "scene", {"free_surface.model=pressure_limited", "free_surface.max=500 nm"}).find("free_surface.max: \"500 nm\" is not a pressure"),
             std::string::npos);
   EXPECT_NE(refusal(whole, "scene", {"particles.0.size.min=1.9 m"}).find("particles.0.size.min:"), std::string::npos);
   EXPECT_NE(refusal(whole, "scene", {"particles.0.size={law: normal, mean: 9 um, standard_deviation: 0.1 um, min: 1 um, max: 2 um}"})

@@ -41,6 +41,8 @@ RunState full_state() {
   s.list_temperature = 301.7;
   s.frame_position = vectors(5, 6);
   s.frame_height = 24.9;
+  s.surface_height = awkward(4);
+  s.surface_velocity = awkward(5);
   s.solver_factor = {std::numeric_limits<std::int64_t>::min(), -1, 0, std::bit_cast<std::int64_t>(0.1)};
   for (int r = 0; r < 3; ++r) {
     Redistribution part;
@@ -64,7 +66,7 @@ bool same(const Redistribution& a, const Redistribution& b) { return same(a.resi
 // Every member: one that is added and forgotten here does not compile.
 void expect_same(const RunState& a, const RunState& b) {
   const auto& [step, frame, time, preferred_step, last_step, position, velocity, angular_velocity, previous_velocity,
-               previous_angular_velocity, protrusion, list_reference, list_temperature, frame_position, frame_height,
+               previous_angular_velocity, surface_height, surface_velocity, protrusion, list_reference, list_temperature, frame_position, frame_height,
                solver_factor, redistribution, interval] = a;
   EXPECT_TRUE(same(step, b.step) && same(frame, b.frame));
   EXPECT_TRUE(same(time, b.time) && same(preferred_step, b.preferred_step) && same(last_step, b.last_step));
@@ -73,6 +75,7 @@ void expect_same(const RunState& a, const RunState& b) {
   EXPECT_TRUE(same(angular_velocity, b.angular_velocity));
   EXPECT_TRUE(same(previous_velocity, b.previous_velocity));
   EXPECT_TRUE(same(previous_angular_velocity, b.previous_angular_velocity));
+  EXPECT_TRUE(same(surface_height, b.surface_height) && same(surface_velocity, b.surface_velocity));
   EXPECT_TRUE(same(protrusion, b.protrusion));
   EXPECT_TRUE(same(list_reference, b.list_reference) && same(list_temperature, b.list_temperature));
   EXPECT_TRUE(same(frame_position, b.frame_position) && same(frame_height, b.frame_height));
