@@ -13,11 +13,11 @@ STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
 .PHONY: all build test bench speed accuracy studies claims install clean format page-libraries deb help dependencies configure FORCE
 
-all: study-drying
-	@echo "The report of the drying study: $(BUILD)/studies/drying/report.html"
+all: study-first
+	@echo "The report of the first study: $(BUILD)/studies/first/report.html"
 
 help:
-	@echo 'make                 install what is missing, build, run the main study (workflows/drying)'
+	@echo 'make                 install what is missing, build, run one layer (workflows/first)'
 	@echo 'make build           install what is missing, build the tools into $(BUILD)/bin'
 	@echo 'make test            build, run all tests'
 	@echo 'make bench           build, run the benchmarks'
@@ -91,6 +91,11 @@ claims:
 .PHONY: $(STUDIES:%=study-%)
 $(STUDIES:%=study-%): study-%: build
 	$(MAKE) $(call STUDY_OPTIONS,$*)
+# Studies that measure the runs of another.
+study-mobility study-clustering: study-drying
+study-clustering: study-colloidal
+files-of-mobility files-of-clustering: study-drying
+files-of-clustering: study-colloidal
 
 # Files of a study as goals: one call for all that belong to it, so that -j never runs a stage twice.
 WANTED := $(patsubst $(TOP)/%,%,$(filter $(BUILD)/studies/% $(abspath $(BUILD))/studies/%,$(MAKECMDGOALS)))

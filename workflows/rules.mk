@@ -6,6 +6,7 @@
 #   set-CASE      what the case changes in the scene, --set KEY.PATH=VALUE ...; may be absent
 #   scene-CASE    its scene where it is not scene.yaml; may be absent
 #   without-CASE  files of the chain that its scene has no block for: kbrown, dewatering; may be absent
+#   run-CASE      STUDY/CASE whose trajectory it measures, in place of a run of its own; may be absent
 #   FILES         what each case gets; absent: packing kbrown dewatering trajectory solids cluster separation mobility;
 #                 interactions is the other there is
 #   EXTRA, USES   further files of the study (below its results) that its Makefile has rules for, and the tools they need
@@ -55,7 +56,7 @@ TOOLS := $(sort scene $(SLICES) $(USES) report)
 REPORT_CASES ?= $(CASES)
 scene_of = $(or $(scene-$(1)),$(SCENE))
 
-files_of = $(filter-out $(without-$(1)),$(FILES))
+files_of = $(filter-out $(without-$(1)) $(if $(run-$(1)),packing kbrown dewatering),$(FILES))
 has = $(filter $(1),$(call files_of,$(2)))
 # $(call each,FILE,ENDING): FILE.ENDING of every case that has FILE; $(call made,...): its companion in .made.
 each = $(foreach c,$(CASES),$(if $(call has,$(1),$c),$(RESULTS)/$c/$(1).$(2)))
@@ -126,10 +127,19 @@ $(call each,dewatering,h5): $(RESULTS)/%/dewatering.h5: $(RESULTS)/%/.made/dewat
 	$(BIN)/pigment-dewater $< -o $@
 
 # packing.h5 always; the other two where the case has them.
-starts = packing $(filter kbrown dewatering,$(call files_of,$(1)))
-$(call each,trajectory,h5): $(RESULTS)/%/trajectory.h5: $(RESULTS)/%/.made/consolidate.yaml $(call tool,consolidate) \
+starts = $(if $(run-$(1)),,packing $(filter kbrown dewatering,$(call files_of,$(1))))
+taken := $(foreach c,$(CASES),$(if $(run-$c),$(RESULTS)/$c/trajectory.h5))
+$(filter-out $(taken),$(call each,trajectory,h5)): $(RESULTS)/%/trajectory.h5: $(RESULTS)/%/.made/consolidate.yaml $(call tool,consolidate) \
     $$(foreach f,$$(call starts,$$*),$$(@D)/.made/$$f.sum)
 	$(LAUNCH) $(BIN)/pigment-consolidate $< $(foreach f,$(call starts,$*),--$f $(@D)/$f.h5) -o $@$(threads)
+
+# A run of another case, or of another study, which is made first (the Makefile at the top does so).
+run_of = $(BUILD)/studies/$(run-$(1))/trajectory.h5
+$(taken): $(RESULTS)/%/trajectory.h5: $$(call run_of,$$*)
+	@mkdir -p $(@D)
+	ln -sfn ../../$(run-$*)/trajectory.h5 $@
+$(filter-out $(RESULTS)/%,$(sort $(foreach c,$(CASES),$(if $(run-$c),$(call run_of,$c))))):
+	@echo '$@ is not there: make study-$(firstword $(subst /, ,$(@:$(BUILD)/studies/%=%))) first' >&2; exit 1
 
 $(call each,interactions,h5): $(RESULTS)/%/interactions.h5: $(RESULTS)/%/.made/interactions.yaml $(call tool,interactions)
 	$(BIN)/pigment-interactions $< -o $@
@@ -147,7 +157,7 @@ JUDGED := $(RESULTS)/claims.csv $(FIGURES:%=$(RESULTS)/figures/%.svg)
 # claims.py puts all of them in place at its end, or none: where it fails, what stood stays.
 .PRECIOUS: $(JUDGED)
 judged_with := $(SIZE) $(CASES) / $(FIGURES)
-$(JUDGED) &: $(wildcard *.py) $(WORKFLOWS)/study.py $(sums_of_results) $(EXTRA:%=$(RESULTS)/%) \
+$(JUDGED) &: $(wildcard *.py) $(WORKFLOWS)/study.py $(WORKFLOWS)/layer.py $(sums_of_results) $(EXTRA:%=$(RESULTS)/%) \
     $(call other,$(judged_with),$(RESULTS)/.made/claims.settings)
 	@mkdir -p $(RESULTS)/.made
 	PYTHONPATH='$(WORKFLOWS)' PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 claims.py --results '$(RESULTS)' --size $(SIZE) --cases '$(CASES)' --figures '$(FIGURES)'
@@ -165,7 +175,7 @@ from-packing := pack.yaml
 from-kbrown := kbrown.yaml
 from-dewatering := dewater.yaml
 from-interactions := interactions.yaml
-from-trajectory = consolidate.yaml $(addsuffix .sum,$(call starts,$(1)))
+from-trajectory = $(if $(run-$(1)),,consolidate.yaml) $(addsuffix .sum,$(call starts,$(1)))
 $(foreach a,$(ANALYSES),$(eval from-$a := $a.yaml trajectory.sum))
 define checksums
 ifeq ($(DRY),)

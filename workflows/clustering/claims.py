@@ -1,0 +1,165 @@
+"""Figures 40 and 43 to 46 of [sand2010] and the claims of its section 4.5."""
+import re
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import dijkstra
+
+from layer import FAR, STUDENT, UM, Sample, both, draw_section, frame_of, of_seeds
+from study import Study
+
+study = Study()
+noise = "-b" if study.cases[0].endswith("-b") else ""
+layer = re.match(r"llh-(\d+um-w\d+)", study.cases[0])[1]
+
+
+class Clusters:
+    def __init__(self, case):
+        self.case = case
+        with study.file(case, "cluster") as f:
+            c = f["cluster"]
+            self.time, self.size, self.fraction = c["time"][:], c["size"][:], c["clustered_fraction"][:]
+            self.largest, self.id = c["largest_fraction"][:], c["id"][:]
+            self.begin, self.first, self.second = (c[f"connection/{n}"][:] for n in ("begin", "first", "second"))
+            self.gap, self.threshold = c["connection/separation"][:], float(c.attrs["threshold"])
+
+    def at(self, time):
+        return int(np.argmin(np.abs(self.time - min(time, self.time[-1]))))
+
+    def by_band(self, time):
+        """Clustered share of the particles: within 2 um of the substrate, in the middle two fifths, within 2 um of the surface."""
+        k = self.at(time)
+        (position, _, box), _ = frame_of(study, self.case, self.time[k])
+        z, h, clustered = position[:, 2], box[2], self.size[k] > 1
+        return np.array([np.mean(clustered[m]) if m.any() else 0 for m in (z < FAR, (z > 0.3 * h) & (z < 0.7 * h), z > h - FAR)])
+
+    def connections(self, k):
+        part = slice(self.begin[k], self.begin[k + 1])
+        return self.first[part], self.second[part], self.gap[part]
+
+
+runs = {case: Clusters(case) for case in study.cases}
+seeds = lambda d, settings: [runs[c] for c in of_seeds(study.cases, f"{d}-{layer}-{settings}{noise}")]    # noqa: E731
+
+charged, bare = seeds("hll", "k10-p50"), seeds("hll", "k10-p0")
+bands = np.mean([r.by_band(0.2) for r in charged], axis=0)
+s = [Sample(r.by_band(0.2)[b] - 2 * r.by_band(0.2)[1] for r in charged) for b in (0, 2)]
+study.claim("4.5", "At 50 mV particles cluster in the cake and in the skin only", "Fig. 40, HLL, 0.2 s, threshold 50 nm",
+            f"clustered: {100 * bands[0]:.0f} % at the substrate, {100 * bands[1]:.0f} % in the middle, {100 * bands[2]:.0f} % at the surface",
+            f"more than twice the share of the middle two fifths within 2 um of the substrate and of the surface ({STUDENT})", both(*(x.above() for x in s)))
+low = {p: seeds("llh", f"k5-p{p}") for p in (50, 0)}
+at = lambda group, t: Sample(100 * r.fraction[r.at(t)] for r in group)    # noqa: E731
+s = at(low[50], 0.4)
+study.claim("4.5", "Under LLH the layer is fully clustered at around 0.4 s (50 mV)", "Fig. 44, threshold 50 nm", f"clustered {at(low[50], 0.1).text()} % at 0.1 s, {at(low[50], 0.2).text()} at 0.2, {at(low[50], 0.3).text()} at 0.3, {s.text()} at 0.4",
+            f"over 95 % of the particles at 0.4 s, and not yet at 0.2 s ({STUDENT})", both(s.above(95), at(low[50], 0.2).below(95)))
+s = at(low[0], 0.05)
+study.claim("4.5", "At 0 mV the layer agglomerates at an early stage", "Figs. 40, 44", f"LLH {s.text()} % clustered at 0.05 s, HLL {at(bare, 0.05).text()} %; at 50 mV {at(low[50], 0.05).text()} and {at(charged, 0.05).text()} %",
+            f"over 90 % at 0.05 s under both strategies ({STUDENT}); part of it is the packing's own near pairs: {at(low[0], 0).text()} % at the start", both(s.above(90), at(bare, 0.05).above(90)))
+double = {k: seeds("llh", f"k{k}-p25") for k in ("2.5", "10")}
+
+
+def unevenness(r):
+    """Clustered at the substrate less in the middle, when half of all particles are."""
+    b = r.by_band(r.time[int(np.argmin(np.abs(r.fraction - 0.5)))])
+    return 100 * (b[0] - b[1])
+
+
+s = {k: Sample(unevenness(r) for r in group) for k, group in double.items()}
+d = Sample(unevenness(a) - unevenness(b) for a, b in zip(double["2.5"], double["10"]))
+study.claim("4.5", "Under LLH a thin double layer (2.5 nm) grows a cake, a thick one (10 nm) clusters evenly", "Fig. 45, threshold 20 nm",
+            f"clustered at the substrate less in the middle: {s['2.5'].text()} % at 2.5 nm, {s['10'].text()} % at 10 nm, when half of all are clustered", f"larger at 2.5 nm ({STUDENT})", d.above())
+
+
+def finger(r, time=0.2):
+    """Of the cluster that holds most particles at the substrate: how far its highest top is above the height of the cake (where the
+    clustered share of the particles falls below one half), over the thickness, and the fewest particles in a chain up to it. (path as places)"""
+    k = r.at(time)
+    (position, radius, box), _ = frame_of(study, r.case, r.time[k])
+    z = position[:, 2]
+    edges = np.arange(0, box[2], 0.5 * UM)
+    share = [np.mean(r.size[k][(z >= a) & (z < a + 1 * UM)] > 1) if np.any((z >= a) & (z < a + 1 * UM)) else 0 for a in edges]
+    cake = next((a for a, c in zip(edges[1:], share[1:]) if c < 0.5), box[2])
+    low = (z - radius < r.threshold) & (r.size[k] > 1)
+    if not low.any() or cake >= box[2]:
+        return 0.0, 0, np.array([], int)
+    held = np.isin(r.id[k], np.unique(r.id[k][low]))
+    tip = int(np.argmax(np.where(held, z + radius, -np.inf)))
+    first, second, gap = r.connections(k)
+    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(z), len(z))).tocsr()
+    source = np.flatnonzero(held & (z < cake))
+    steps, before, _ = dijkstra(graph, directed=False, indices=source, unweighted=True, min_only=True, return_predecessors=True)
+    path = [tip]
+    while before[path[-1]] >= 0:
+        path.append(before[path[-1]])
+    return max(z[tip] + radius[tip] - cake, 0) / box[2], int(steps[tip]) if np.isfinite(steps[tip]) else 0, np.array(path)
+
+
+fingers = [finger(r) for r in seeds("hll", "k2.5-p25")]
+reach, chain = Sample(f[0] for f in fingers), Sample(f[1] for f in fingers)
+study.claim("4.5", "Fingers grow from the cake, over 5 to 6 particles and a third of the layer", "Fig. 46, HLL, 25 mV, 2.5 nm, 20 nm, 0.2 s",
+            f"the highest reaches {reach.text(2)} of the thickness above the cake, over {chain.text()} particles", f"means within 1/3 ± 0.15 and 5.5 ± 1.5 ({STUDENT} not applied: {reach.n} packings)",
+            bool(abs(reach.mean - 1 / 3) < 0.15 and abs(chain.mean - 5.5) < 1.5))
+
+
+# ---- figures
+def panels(name, caption, columns, colour):
+    """Rows: times; columns: (title, run). Sections through the layer."""
+    times = (0.05, 0.1, 0.2, 0.4)
+    figure, axes = study.figure(name, caption, columns=len(times), rows=len(columns), width=42, height=95)
+    for row, (title, r) in zip(axes, columns):
+        for axis, t in zip(row, times):
+            k = r.at(t)
+            state, _ = frame_of(study, r.case, r.time[k])
+            values, low, high, colours = colour(r, k)
+            draw_section(axis, state, values, low, high, colours)
+            axis.set(title=f"{title}, {r.time[k]:.2g} s", xlabel="x (µm)")
+            axis.set_ylim(0, 1.02 * frame_of(study, r.case, 0)[0][2][2] / UM)
+        row[0].set_ylabel("height (µm)")
+
+
+def by_size(r, k):
+    return np.where(r.size[k] > 1, np.log10(r.size[k]), np.nan), np.log10(2), np.log10(r.size.shape[1]), "turbo"
+
+
+def dark(r, k):
+    return np.where(r.size[k] > 1, 1.0, 0.0), -0.3, 1.2, "Greys"
+
+
+note = "sections 1 um thick"
+panels("fig40-clusters-hll", f"Clusters by size (blue few, red all particles, grey alone) under HLL, 50 and 0 mV, 10 nm, threshold 50 nm, {note} (Fig. 40)", [("50 mV", charged[0]), ("0 mV", bare[0])], by_size)
+panels("fig43-double-layer-hll", f"Clustered (dark) and lone (light) particles under HLL, 2.5 and 10 nm, 25 mV, threshold 20 nm, {note} (Fig. 43)",
+       [("2.5 nm", seeds("hll", "k2.5-p25")[0]), ("10 nm", seeds("hll", "k10-p25")[0])], dark)
+panels("fig44-clusters-llh", f"Clusters by size under LLH, 50 and 0 mV, 5 nm, threshold 50 nm, {note} (Fig. 44)", [("50 mV", low[50][0]), ("0 mV", low[0][0])], by_size)
+panels("fig45-double-layer-llh", f"Clustered (dark) and lone (light) particles under LLH, 2.5 and 10 nm, 25 mV, threshold 20 nm, {note} (Fig. 45)",
+       [(f"{k} nm", double[k][0]) for k in ("2.5", "10")], dark)
+
+r = seeds("hll", "k2.5-p25")[0]
+figure, axes = study.figure("fig46-fingers", "Connections of the clusters under HLL, 2.5 nm, 25 mV, threshold 20 nm, in projection: red near, blue far (Fig. 46). Black: the shortest chain from the cake to the highest particle it holds", columns=3, width=55, height=110)
+for axis, t in zip(axes, (0.1, 0.2, 0.3)):
+    k = r.at(t)
+    (position, radius, box), _ = frame_of(study, r.case, r.time[k])
+    first, second, gap = r.connections(k)
+    x = position[:, 0] % box[0] / UM
+    z = position[:, 2] / UM
+    whole = np.abs(x[first] - x[second]) < box[0] / UM / 2       # not those across the border
+    lines = LineCollection(np.stack([np.column_stack([x[first], z[first]]), np.column_stack([x[second], z[second]])], axis=1)[whole], array=1e9 * gap[whole], cmap="coolwarm_r", linewidths=0.6,
+                           norm=plt.Normalize(0, 1e9 * r.threshold))
+    axis.add_collection(lines)
+    path = finger(r, t)[2]
+    axis.plot(x[path], z[path], ".", color="black", ms=4)
+    axis.axhline(box[2] / UM, color="0.3", lw=0.6)
+    axis.set(xlim=(0, box[0] / UM), ylim=(0, 1.02 * frame_of(study, r.case, 0)[0][2][2] / UM), aspect="equal", title=f"{r.time[k]:.2g} s", xlabel="x (µm)")
+axes[0].set_ylabel("height (µm)")
+figure.colorbar(lines, ax=axes[-1], label="surface separation (nm)", shrink=0.5)
+
+figure, axes = study.figure("clustered", "Share of clustered particles in time: potentials (threshold 50 nm), double layers (threshold 20 nm)", columns=2)
+for axis, groups in zip(axes, ([("HLL 50 mV", charged), ("HLL 0 mV", bare), ("LLH 50 mV", low[50]), ("LLH 0 mV", low[0])],
+                               [(f"{d.upper()} {k} nm", seeds(d, f"k{k}-p25")) for d in ("hll", "llh") for k in ("2.5", "10")])):
+    for i, (name, group) in enumerate(groups):
+        for g in group:
+            axis.plot(g.time, 100 * g.fraction, color=f"C{i}", lw=0.8, label=name if g is group[0] else None)
+    axis.set(xlabel="time (s)", ylabel="clustered particles (%)", ylim=(0, 103))
+    axis.legend()
+study.finish()

@@ -1,0 +1,169 @@
+"""Figures 35 to 39, 41 and 42 of [sand2010] and the claims of its section 4.4."""
+import re
+
+import numpy as np
+
+from layer import STUDENT, UM, Layer, Sample, both, of_seeds
+from study import FROM_INPUT, Study
+
+study = Study()
+runs = {case: Layer(study, case) for case in study.cases}
+noise = "-b" if study.cases[0].endswith("-b") else ""
+layer = re.match(r"hll-\d+um-w\d+", study.cases[0])[0]
+THICK = re.search(r"(\d+)um", layer)[1]
+POTENTIALS, LOW, HIGH = (0, 5, 10, 25, 50), (0, 5, 10), (25, 50)
+TIMES = (0.05, 0.1, 0.2, 0.3)
+at = lambda run, t: run.frame(t)           # noqa: E731
+
+
+def seeds(settings):
+    return [runs[c] for c in of_seeds(study.cases, f"{layer}-{settings}{noise}")]
+
+
+def one(settings, end=""):
+    name = f"{layer}-{settings}-s1{noise}{end}"
+    return runs[name] if name in runs else None
+
+
+def of_potential(p):
+    return seeds(f"k10-p{p}")
+
+
+# ---- surface potential
+WITHIN = 0.01     # what we call a difference in thickness: "much thicker" in the source is several per cent of the layer
+relative = [np.mean([of_potential(p)[i].z99[at(of_potential(p)[i], 0.2)] for p in LOW]) / np.mean([of_potential(p)[i].z99[at(of_potential(p)[i], 0.2)] for p in HIGH]) - 1
+            for i in range(len(of_potential(0)))]
+s = Sample(relative)
+mean_um = lambda p, t=0.2, what="z99": Sample(getattr(r, what)[at(r, t)] / UM for r in of_potential(p))     # noqa: E731
+study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed",
+            "height below which 99 % of the solids lie at 0.2 s: " + ", ".join(f"{p} mV {mean_um(p).text(2)} um" for p in POTENTIALS) + f"; 0 to 10 mV over 25 and 50 mV {100 * s.mean:+.2f} ± {100 * s.error:.2f} %",
+            f"more than {100 * WITHIN:g} % ({STUDENT})", s.above(WITHIN))
+surface = {p: [abs(of_potential(p)[0].thickness[at(of_potential(p)[0], t)] - of_potential(50)[0].thickness[at(of_potential(50)[0], t)]) for t in TIMES] for p in POTENTIALS}
+study.claim("4.4", "The layer shrinks at roughly the same rate at every potential", "Fig. 38",
+            f"the surface at {len(TIMES)} times differs by at most {max(max(v) for v in surface.values()) / 1e-9:.1f} nm, as the dewatering is the same", "the surface's height is the wet layer less the liquid lost, which the scene imposes", FROM_INPUT)
+bulk = {p: Sample(r.bands(at(r, 0.2))[1] for r in of_potential(p)) for p in POTENTIALS}
+noise_of_seeds = max(b.error * np.sqrt(b.n) for b in bulk.values())
+slope = Sample(np.polyfit(POTENTIALS, [of_potential(p)[i].bands(at(of_potential(p)[i], 0.2))[1] for p in POTENTIALS], 1)[0] * 50 for i in range(len(of_potential(0))))
+study.claim("4.4", "The potential has no significant systematic impact on the solids inside", "Fig. 37", "middle of the layer at 0.2 s: " + ", ".join(f"{p} mV {bulk[p].text()}" for p in POTENTIALS) + f" wt-%; fitted from 0 to 50 mV {slope.text(2)}",
+            f"the straight line through five potentials changes by less than 1 wt-% ({STUDENT})", both(slope.below(1), slope.above(-1)))
+near = {}
+for p in (0, 50):
+    share = []
+    for r in of_potential(p):
+        with study.file(r.case, "separation") as f:
+            x, d = f["separation/edges"][:], f["separation/density"][at(r, 0.2)]
+        share.append(100 * np.sum(d[x[1:] <= 20e-9] * np.diff(x)[x[1:] <= 20e-9]))
+    near[p] = share
+s = Sample(a - b for a, b in zip(near[0], near[50]))
+study.claim("4.4", "A low potential agglomerates the particles: a sharp peak at short separations", "Fig. 39", f"pairs nearer than 20 nm: {np.mean(near[0]):.1f} % at 0 mV, {np.mean(near[50]):.1f} % at 50 mV",
+            f"more at 0 mV, of the pairs nearer than the smallest diameter, 0.2 s ({STUDENT})", s.above())
+
+# ---- how the surface holds
+tensions = {p: [(t, r) for t, r in ((72, of_potential(p)[0]), *((t, one(f"k10-p{p}-t{t:g}")) for t in (7, 0.7, 0.07))) if r] for p in (0, 50)}
+limited = {p: one(f"k10-p{p}-limited") for p in (0, 50)}
+differences = [(f"{t:g} mN/m", a.z99[at(a, 0.2)] / b.z99[at(b, 0.2)] - 1, a.protruding[at(a, 0.2)]) for (t, a), (_, b) in zip(tensions[0], tensions[50])]
+if limited[0] and limited[50]:
+    differences.append(("500 kPa at most", limited[0].z99[at(limited[0], 0.2)] / limited[50].z99[at(limited[50], 0.2)] - 1, limited[0].protruding[at(limited[0], 0.2)]))
+study.claim("4.4", "A surface that yields would let uncharged layers stay thicker", "Fig. 36 leaves open how the surface held in the source",
+            "z99 at 0 mV over that at 50 mV, 0.2 s: " + "; ".join(f"{name} {100 * d:+.2f} % ({100 * o:.2f} % of the solids above the surface)" for name, d, o in differences),
+            f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", any(d > WITHIN for _, d, _ in differences[1:]))
+
+# ---- double layer
+def double_layer(k):
+    return seeds(f"k{k}-p25")
+
+
+s = Sample(a.z99[at(a, 0.2)] / b.z99[at(b, 0.2)] - 1 for a, b in zip(double_layer("2.5"), double_layer(10)))
+study.claim("4.4", "The double layer hardly changes the thickness", "text with Fig. 41", f"z99 at 0.2 s, 2.5 nm over 10 nm: {100 * s.mean:+.2f} ± {100 * s.error:.2f} %", f"by less than 2 % ({STUDENT}); the surface's height is imposed", both(s.below(0.02), s.above(-0.02)))
+for band, name, source in ((0, "cake", 5), (2, "skin", 2)):
+    s = Sample((a.bands(at(a, 0.2)) - b.bands(at(b, 0.2)))[band] for a, b in zip(double_layer("2.5"), double_layer(10)))
+    early = Sample((a.bands(at(a, 0.1)) - b.bands(at(b, 0.1)))[band] for a, b in zip(double_layer("2.5"), double_layer(10)))
+    study.claim("4.4", f"A thin double layer sharpens the {name}, by about {source} wt-%", "Figs. 41, 42", f"2.5 nm less 10 nm: {s.text()} wt-% at 0.2 s, {early.text()} at 0.1 s",
+                f"0.5 to 2 um from the {'substrate' if band == 0 else 'surface'} at 0.2 s, above half of that ({STUDENT})", s.above(source / 2))
+thinner = [(k, one(f"k{k}-p25")) for k in ("10", "5", "2.5", "1", "0.5")]
+thinner = [(k, r) for k, r in thinner if r]
+gains = [r.bands(at(r, 0.2))[0] for _, r in thinner]
+study.claim("4.4", "Below 2.5 nm, which the source could not afford, the cake goes on to sharpen", "not in the source", "at the substrate at 0.2 s: " + ", ".join(f"{k} nm {g:.1f}" for (k, _), g in zip(thinner, gains)) + " wt-% (one packing)",
+            "more at 0.5 nm than at 2.5 nm by over 1 wt-%", None if thinner[-1][0] != "0.5" else bool(gains[-1] - gains[2] > 1))
+
+# ---- viscosity
+viscous = {end: [(m, next(r for c, r in runs.items() if f"-m{m}-" in c and c.endswith("-darcy") == bool(end))) for m in ("0.89", "2", "4")] for end in ("", "-darcy")}
+spreads = [r.spread(at(r, 0.2)) for _, r in viscous[""]]
+study.claim("4.4", "A higher viscosity keeps gradients", "Fig. 35", "s.d. of the profile at 0.2 s, same dewatering: " + ", ".join(f"{m} mPa s {x:.1f}" for (m, _), x in zip(viscous[""], spreads)) + " wt-%",
+            "rises with viscosity, by over 0.5 wt-% from 0.89 to 4 mPa s (one packing)", bool(spreads[0] < spreads[1] < spreads[2] and spreads[2] - spreads[0] > 0.5))
+heights = [r.thickness[at(r, 0.2)] / UM for _, r in viscous["-darcy"]]
+study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.2 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for (m, _), x in zip(viscous["-darcy"], heights)) + "; with the same dewatering no difference",
+            "Darcy's flux falls with viscosity, and the fall of the surface is imposed", FROM_INPUT if heights[0] < heights[1] < heights[2] else False)
+
+# ---- figures
+def profile(axis, group, t, colour, label):
+    grid = np.linspace(0, 1, 61)
+    rows = [np.interp(grid, np.linspace(0, 1, 2 * r.phi.shape[1] + 1)[1::2], r.wt[at(r, t)]) for r in group]
+    height = np.mean([r.thickness[at(r, t)] for r in group]) * grid / UM
+    mean, error = np.mean(rows, axis=0), np.std(rows, axis=0) / np.sqrt(max(1, len(rows) - 1))
+    axis.plot(mean, height, color=colour, label=label)
+    axis.fill_betweenx(height, mean - error, mean + error, color=colour, alpha=0.2, lw=0)
+    axis.set(xlabel="solids (wt-%)", ylabel="height (µm)", ylim=(0, None))
+
+
+figure, axes = study.figure("fig35-viscosity", "Solids at 0.2 s at three viscosities, 20 um, 10 nm, 50 mV (Fig. 35): the same dewatering, and Darcy's as it is", columns=2)
+for axis, (end, title) in zip(axes, (("", "same dewatering"), ("-darcy", "Darcy's flux"))):
+    for i, (m, r) in enumerate(viscous[end]):
+        profile(axis, [r], 0.2, f"C{i}", f"{m} mPa s")
+    axis.set(title=title)
+axes[0].legend()
+figure, axes = study.figure("fig36-thickness", f"Thickness by the particles against surface potential at several times, {THICK} um, 10 nm (Fig. 36); bars: standard error", columns=2)
+for axis, (what, name) in zip(axes, (("z99", "99 % of the solids (µm)"), ("top_envelope", "mean particle top (µm)"))):
+    for t in TIMES:
+        values = [mean_um(p, t, what) for p in POTENTIALS]
+        axis.errorbar(POTENTIALS, [v.mean for v in values], yerr=[v.error if v.n > 1 else 0 for v in values], fmt="o-", label=f"{t:g} s")
+    axis.set(xlabel="surface potential (mV, negative)", ylabel=name)
+axes[1].legend()
+figure, axis = study.figure("fig37-solids-by-potential", f"Solids at 0.2 s by surface potential, {THICK} um, 10 nm (Fig. 37)")
+for i, p in enumerate(POTENTIALS):
+    profile(axis, of_potential(p), 0.2, f"C{i}", f"{p} mV")
+axis.legend()
+figure, axis = study.figure("fig38-shrinkage", f"Thickness in time by surface potential, {THICK} um, 10 nm (Fig. 38): line by the particles (z99), dashes the surface, which is imposed")
+for i, p in enumerate(POTENTIALS):
+    r = of_potential(p)[0]
+    axis.plot(r.time, r.z99 / UM, color=f"C{i}", label=f"{p} mV")
+    axis.plot(r.time, r.thickness / UM, "--", color=f"C{i}", lw=0.7)
+axis.set(xlabel="time (s)", ylabel="thickness (µm)")
+axis.legend()
+figure, axis = study.figure("fig39-separations", "Surface separations of near neighbours at 0.2 s (Fig. 39)")
+for group, label in ((of_potential(0), "0 mV, 10 nm"), (of_potential(10), "10 mV, 10 nm"), (of_potential(50), "50 mV, 10 nm"), (double_layer("2.5"), "25 mV, 2.5 nm"), (double_layer(10), "25 mV, 10 nm")):
+    with study.file(group[0].case, "separation") as f:
+        x, d = f["separation/edges"][:] * 1e9, f["separation/density"][at(group[0], 0.2)] * 1e-9
+    axis.stairs(d, x, label=label, lw=1.2)
+axis.set(xlabel="surface separation (nm)", ylabel="density (1/nm)", xlim=(0, 120), ylim=(0, None))
+axis.legend()
+figure, axes = study.figure("fig41-solids-by-double-layer", f"Solids by Debye length, {THICK} um, 25 mV, at 0.1 and 0.2 s (Fig. 41)", columns=2)
+figure2, axes2 = study.figure("fig42-cumulative", f"Solids of all that lies below a height, by Debye length, {THICK} um, 25 mV, 0.2 s (Fig. 42); right: the cake", columns=2)
+for i, (k, r) in enumerate(thinner):
+    group = double_layer(k)
+    for axis, t in zip(axes, (0.1, 0.2)):
+        profile(axis, group, t, f"C{i}", f"{k} nm")
+        axis.set(title=f"{t:g} s")
+    for axis in axes2:
+        n = at(r, 0.2)
+        axis.plot(np.mean([g.cumulative_wt[at(g, 0.2)] for g in group], axis=0), r.edges[n][1:] / UM, color=f"C{i}", label=f"{k} nm")
+        axis.set(xlabel="solids below (wt-%)", ylabel="height (µm)", ylim=(0, None))
+axes2[1].set(ylim=(0, r.thickness[n] / UM / 4))
+axes[0].legend()
+axes2[0].legend()
+figure, axes = study.figure("pressure", f"Pressure of the surface on the particles against solids, {THICK} um: by potential (10 nm), by Debye length (25 mV)", columns=2)
+for axis, group in zip(axes, ([(f"{p} mV", of_potential(p)[0]) for p in POTENTIALS], [(f"{k} nm", r) for k, r in thinner])):
+    for name, r in group:
+        with study.file(r.case, "trajectory") as f:
+            w, pressure = 100 * f["observables/solids_mass_fraction/value"][:], f["observables/surface_pressure/value"][:] / 1e3
+        axis.semilogy(w[pressure > 0], pressure[pressure > 0], label=name)
+    axis.set(xlabel="solids (wt-%)", ylabel="pressure of the surface (kPa)")
+    axis.legend()
+figure, axes = study.figure("surface-tension", f"Thickness by the particles in time with surfaces that hold less and less, {THICK} um, 10 nm; dashes: the surface", columns=2)
+for axis, p in zip(axes, (0, 50)):
+    for i, (name, r) in enumerate([(f"{t:g} mN/m", r) for t, r in tensions[p]] + ([("500 kPa at most", limited[p])] if limited[p] else [])):
+        axis.plot(r.time, r.z99 / UM, color=f"C{i}", label=name)
+        axis.plot(r.time, r.thickness / UM, "--", color=f"C{i}", lw=0.6)
+    axis.set(xlabel="time (s)", ylabel="z99 (µm)", title=f"{p} mV")
+axes[0].legend()
+study.finish()
