@@ -10,7 +10,7 @@ struct Chunks {
   std::vector<int> begin;  // chunk c holds particles begin[c] .. begin[c+1]-1
   int count() const { return static_cast<int>(begin.size()) - 1; }
 };
-// About 256 particles a chunk, each from a multiple of four on; at least one chunk.
+// About 256 particles a chunk, up to 2048 where there are many, each from a multiple of four on; at least one chunk.
 Chunks make_chunks(std::size_t particles);
 
 }  // namespace pigment::solve
