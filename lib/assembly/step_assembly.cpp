@@ -11,15 +11,16 @@ namespace pigment::assembly {
 
 namespace {
 
-// A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above.
-constexpr double largest_fall = 0.2;
+// A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above; and rise by
+// this, since repulsion linearised deep inside a steep barrier throws a gap out too far.
+constexpr double largest_fall = 0.4, largest_rise = 3;
 
 // Whether a gap came out far from what the system was linearised about.
 bool off_guess(double gap, double guess, bool refined) {
   return refined ? std::abs(gap - guess) > 0.05 * guess : gap < 0.5 * guess;
 }
 
-double next_guess(double gap, double guess) { return std::max(gap, largest_fall * guess); }
+double next_guess(double gap, double guess) { return std::clamp(gap, largest_fall * guess, largest_rise * guess); }
 
 std::vector<int> chunk_of_pairs(const solve::PairTopology& t) {
   std::vector<int> count;
@@ -255,7 +256,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         const double gap = z - a, begin = position_[k].z() - a;
         double& guess = substrate_geometry_[k].gap;
         if (interactions_.lubrication() && begin > 0) {
-          if (gap <= 0 && !newton_) check.crossed = true;
+          if (gap <= 0) check.crossed = true;
           if (newton_ && off_guess(gap, guess, guess != begin)) {
             guess = next_guess(gap, guess);
             check.refine = true;

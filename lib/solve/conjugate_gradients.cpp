@@ -1,5 +1,6 @@
 #include "solve/conjugate_gradients.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solve/block_jacobi.h"
@@ -75,7 +76,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     }
 #pragma omp single
     {
-      bb = sum_of(partial_bb);
+      bb = std::min(sum_of(partial_bb), options.largest_scale);
       rz = sum_of(partial_rz);
       target = options.tolerance * options.tolerance * bb;
       done = !(rz > target);
@@ -106,6 +107,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     }
   }
   from_strided<D>(x, x_out);
+  report.scale = bb;
   report.residual = bb > 0 ? std::sqrt(rz / bb) : 0;
   report.converged = std::isfinite(rz) && rz <= target;
   if (!report.converged)
@@ -140,7 +142,7 @@ SolveReport solve_with_factor(const PairSystem& system, std::vector<double>& x, 
     return sum;
   };
   factor.solve(s, z);
-  const double scale = dot(s, z), target = options.tolerance * options.tolerance * scale;
+  const double scale = std::min(dot(s, z), options.largest_scale), target = options.tolerance * options.tolerance * scale;
   apply(system, x, ap);
   for (std::size_t q = 0; q < size; ++q) r[q] -= ap[q];
   mask(r);
@@ -164,6 +166,7 @@ SolveReport solve_with_factor(const PairSystem& system, std::vector<double>& x, 
     rz = next;
     ++report.iterations;
   }
+  report.scale = scale;
   report.residual = scale > 0 ? std::sqrt(std::max(rz, 0.0) / scale) : 0;
   report.converged = std::isfinite(rz) && rz <= target;
   if (!report.converged)

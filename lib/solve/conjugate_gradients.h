@@ -1,6 +1,7 @@
 #pragma once
 // Preconditioned conjugate gradients on a PairSystem; block Jacobi preconditioner, or a factor of a similar matrix. Same bytes
 // at any number of threads.
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,16 @@ namespace pigment::solve {
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
-  double residual = -1;  // sqrt(r M^-1 r / b M^-1 b), b with what held particles contribute
+  double residual = -1;  // sqrt(r M^-1 r / scale)
+  double scale = 0;      // b M^-1 b, b with what held particles contribute; or the largest scale asked for, if that is smaller
   std::string message;
 };
 
 struct ConjugateGradientOptions {
   double tolerance = 1e-6;   // on the residual above
   int max_iterations = 2000;
+  // Newton's method adds large forces that nearly cancel: their size must not loosen the solve.
+  double largest_scale = std::numeric_limits<double>::infinity();
 };
 
 // x: in, the starting guess (empty: zero); out, the solution. An unconverged or non-finite solve is a report, not an error.

@@ -162,7 +162,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   const Liquid liquid = liquid_at_time(start.time);
   gap_scale_ = gap_scale(problem_.interactions, liquid);
   const Vec3Array force = noisy ? brownian_force(start.number, start.step, liquid) : Vec3Array{};
-  const solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
+  solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
   assembly_->begin(start.position, film(start), liquid, start.step, treatment, force, start.protrusion);
   StepSolution s;
   s.velocity = std::move(guess);
@@ -170,6 +170,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   for (int pass = 0; pass < most; ++pass) {
     assembly_->build(system_);
     s.solve = solver_.solve(system_, s.velocity, options);
+    if (s.solves == 0) options.largest_scale = s.solve.scale;
     s.iterations += s.solve.iterations;
     ++s.solves;
     if (!s.solve.converged) return s;

@@ -9,7 +9,7 @@ import sys
 import h5py
 import numpy as np
 
-packing, folder = sys.argv[1:]
+packing, folder = sys.argv[1:3]
 with h5py.File(packing) as f:
     layer = f["particles/layer"]
     x = layer["position/value"][-1] if "value" in layer["position"] else layer["position"][:]
@@ -17,7 +17,7 @@ with h5py.File(packing) as f:
     edges = layer["box/edges/value"][-1] if "value" in layer["box/edges"] else layer["box/edges"][:]
 x, edges = x * 1e6, np.asarray(edges) * 1e6
 x[:, :2] %= edges[:2]
-types = 8
+types = int(sys.argv[3]) if len(sys.argv) > 3 else 8
 bounds = a.min() * (a.max() / a.min()) ** (np.arange(types + 1) / types)
 kind = np.clip(np.searchsorted(bounds, a, side="right"), 1, types)
 with open(f"{folder}/layer.data", "w") as out:
