@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench speed accuracy studies claims install clean format page-libraries deb help dependencies configure FORCE
+.PHONY: all build test bench speed accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
 
 all: study-first
 	@echo "The report of the first study: $(BUILD)/studies/first/report.html"
@@ -26,6 +26,7 @@ help:
 	@echo '                     studies: $(STUDIES)'
 	@echo 'make studies         run all of them; one report of their claims and figures: $(BUILD)/studies/report.html'
 	@echo 'make claims          write docs/claims.md from the studies that have been run'
+	@echo 'make cost            write docs/cost.md, what their runs took'
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make accuracy        measure errors and cost of the resistance models, write docs/accuracy.md'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
@@ -87,6 +88,10 @@ studies: $(STUDIES:%=study-%)
 
 claims:
 	workflows/replace_if_changed.sh docs/claims.md /usr/bin/python3 workflows/claims_page.py '$(BUILD)/studies' $(STUDIES)
+
+# What the runs took beside what pigment-scene forecast, as docs/cost.md. Nothing else should have run beside them.
+cost:
+	workflows/replace_if_changed.sh docs/cost.md /usr/bin/python3 workflows/cost_page.py '$(BUILD)/studies' $(STUDIES)
 
 .PHONY: $(STUDIES:%=study-%)
 $(STUDIES:%=study-%): study-%: build

@@ -5,7 +5,7 @@
 #   m2                viscosity of the liquid, mPa s       t7       surface tension, mN/m
 #   b                 with Brownian motion                 darcy    fluxes as written, not scaled to a final solids content
 #   limited           surface limited to 500 kPa           hard     evaporation twice as high while it is high
-#   open              a substrate ten times as permeable   e-NAME   the evaporation sequence NAME.csv, in place of a strategy
+#   open              a substrate ten times as permeable   e        in front: the strategy is a table, NAME.csv beside the scene
 # One absolute dewatering profile for all thicknesses: what takes 25 um to 88 wt-% in half a second, going on afterwards, so
 # that every layer comes to rest by itself.
 # From the command line: WIDTH (um), SEEDS (a list) in place of those of SIZE; both are in the names, so results never mix.
@@ -29,7 +29,9 @@ setting = $(or \
   $(if $(filter m%,$(1)),--set liquid.viscosity="$(1:m%=%) mPa s"),\
   $(if $(filter t%,$(1)),--set free_surface.surface_tension="$(1:t%=%) mN/m"))
 parts = $(subst -, ,$(1))
-whole_set = $(foreach t,$(call parts,$(1)),$(call setting,$t)) \
+table = $(filter e,$(firstword $(call parts,$(1))))
+whole_set = $(if $(call table,$(1)),--set dewatering.file=$(word 2,$(call parts,$(1))).csv) \
+  $(foreach t,$(if $(call table,$(1)),$(wordlist 3,9,$(call parts,$(1))),$(call parts,$(1))),$(call setting,$t)) \
   $(if $(filter b,$(call parts,$(1))),,--set brownian=null) \
   $(if $(filter darcy,$(call parts,$(1))),--set dewatering.final_solids=null --set dewatering.reference_thickness=null,--set dewatering.reference_thickness="25 um") \
   $(if $(filter 10um,$(call parts,$(1))),--set output.every="2 ms") --set stepping.until="$(call until,$(1))"

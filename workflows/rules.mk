@@ -131,7 +131,9 @@ starts = $(if $(run-$(1)),,packing $(filter kbrown dewatering,$(call files_of,$(
 taken := $(foreach c,$(CASES),$(if $(run-$c),$(RESULTS)/$c/trajectory.h5))
 $(filter-out $(taken),$(call each,trajectory,h5)): $(RESULTS)/%/trajectory.h5: $(RESULTS)/%/.made/consolidate.yaml $(call tool,consolidate) \
     $$(foreach f,$$(call starts,$$*),$$(@D)/.made/$$f.sum)
+	@date +%s > $(@D)/.made/began
 	$(LAUNCH) $(BIN)/pigment-consolidate $< $(foreach f,$(call starts,$*),--$f $(@D)/$f.h5) -o $@$(threads)
+	@echo $$(( $$(date +%s) - $$(cat $(@D)/.made/began) )) $(or $(lastword $(threads)),all) > $(@D)/.made/took
 
 # A run of another case, or of another study, which is made first (the Makefile at the top does so).
 run_of = $(BUILD)/studies/$(run-$(1))/trajectory.h5
