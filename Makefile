@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench speed accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
+.PHONY: all build test bench bench-peers speed accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
 
 all: study-first
 	@echo "The report of the first study: $(BUILD)/studies/first/report.html"
@@ -21,6 +21,7 @@ help:
 	@echo 'make build           install what is missing, build the tools into $(BUILD)/bin'
 	@echo 'make test            build, run all tests'
 	@echo 'make bench           build, run the benchmarks'
+	@echo 'make bench-peers     one solve beside LAMMPS (package lammps) on the same positions'
 	@echo 'make speed           build, measure wall time against error'
 	@echo 'make study-NAME      run one study; SIZE=quick or SIZE=full, -j N, LAUNCH="srun -n1"'
 	@echo '                     studies: $(STUDIES)'
@@ -55,6 +56,11 @@ test: configure
 bench: configure
 	cmake --build $(BUILD) --parallel $(JOBS) --target all benchmarks
 	cd $(BUILD)/bench && for program in ./bench_*; do "$$program" || exit 1; done
+
+# One solve beside LAMMPS's on the same positions.
+bench-peers: configure
+	cmake --build $(BUILD) --parallel $(JOBS) --target all bench_peers
+	workflows/peers/compare.sh '$(abspath $(BUILD))/bin' '$(abspath $(BUILD))/bench' '$(BUILD)/peers'
 
 # Wall times and errors of packing and stepping, as in docs/speed.md. Nothing else should run beside it.
 speed: build
