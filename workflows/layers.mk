@@ -35,14 +35,17 @@ whole_set = $(if $(call table,$(1)),--set dewatering.file=$(word 2,$(call parts,
   $(if $(filter b,$(call parts,$(1))),,--set brownian=null) \
   $(if $(filter darcy,$(call parts,$(1))),--set dewatering.final_solids=null --set dewatering.reference_thickness=null,--set dewatering.reference_thickness="25 um") \
   $(if $(filter 10um,$(call parts,$(1))),--set output.every="2 ms") --set stepping.until="$(call until,$(1))"
-UNTIL ?= 0.8 s
 # At the rates of the thick layers one of 10 um is drained in a tenth of their time. Its runs end at about 81 wt-%: they come to no
 # rest, since one that is drained so fast jams at 83 wt-% before its particles have stopped moving against each other.
 until-hll := 0.064 s
 until-llh := 0.154 s
 until-abs := 0.044 s
 until-eva := 0.148 s
-until = $(if $(filter 10um,$(call parts,$(1))),$(until-$(firstword $(call parts,$(1)))),$(UNTIL))
+# Likewise 20 um after 0.2 s, and after 0.12 s where the fluxes are not scaled down. Without Brownian motion the last hundredths of a second
+# of a layer that jams take most of the time of a run, so quick runs end before.
+until = $(if $(filter 10um,$(call parts,$(1))),$(until-$(firstword $(call parts,$(1)))),$(if $(filter darcy,$(call parts,$(1))),0.12 s,$(if \
+  $(and $(filter 20um,$(call parts,$(1))),$(filter-out b,$(lastword $(call parts,$(1))))),0.2 s,$(UNTIL))))
+UNTIL ?= $(if $(full),0.8 s,0.36 s)
 # $(call layers,CASES): what each changes and lacks. To be called before ../rules.mk is read.
 define layer_case
 set-$(1) := $(call whole_set,$(1)) $(ANALYSIS)

@@ -52,8 +52,8 @@ study.claim("4.5", "At 50 mV particles cluster in the cake and in the skin only"
 low = {p: seeds("llh", f"k5-p{p}") for p in (50, 0)}
 at = lambda group, t: Sample(100 * r.fraction[r.at(t)] for r in group)    # noqa: E731
 s = at(low[50], 0.4)
-study.claim("4.5", "Under LLH the layer is fully clustered at around 0.4 s (50 mV)", "Fig. 44, threshold 50 nm", f"clustered {at(low[50], 0.1).text()} % at 0.1 s, {at(low[50], 0.2).text()} at 0.2, {at(low[50], 0.3).text()} at 0.3, {s.text()} at 0.4",
-            f"over 95 % of the particles at 0.4 s, and not yet at 0.2 s ({STUDENT})", both(s.above(95), at(low[50], 0.2).below(95)))
+study.claim("4.5", "Under LLH the layer is fully clustered at around 0.4 s (50 mV)", "Fig. 44, threshold 50 nm", f"clustered {at(low[50], 0.1).text()} % at 0.1 s, {at(low[50], 0.2).text()} at 0.2, {at(low[50], 0.3).text()} at 0.3, {s.text()} at {min(0.4, low[50][0].time[-1]):.2g}",
+            f"over 95 % of the particles at 0.4 s (or the last frame before), and not yet at 0.2 s ({STUDENT})", both(s.above(95), at(low[50], 0.2).below(95)))
 s = at(low[0], 0.05)
 study.claim("4.5", "At 0 mV the layer agglomerates at an early stage", "Figs. 40, 44", f"LLH {s.text()} % clustered at 0.05 s, HLL {at(bare, 0.05).text()} %; at 50 mV {at(low[50], 0.05).text()} and {at(charged, 0.05).text()} %",
             f"over 90 % at 0.05 s under both strategies ({STUDENT}); part of it is the packing's own near pairs: {at(low[0], 0).text()} % at the start", both(s.above(90), at(bare, 0.05).above(90)))

@@ -91,8 +91,8 @@ viscous = {end: [(m, next(r for c, r in runs.items() if f"-m{m}-" in c and c.end
 spreads = [r.spread(at(r, 0.2)) for _, r in viscous[""]]
 study.claim("4.4", "A higher viscosity keeps gradients", "Fig. 35", "s.d. of the profile at 0.2 s, same dewatering: " + ", ".join(f"{m} mPa s {x:.1f}" for (m, _), x in zip(viscous[""], spreads)) + " wt-%",
             "rises with viscosity, by over 0.5 wt-% from 0.89 to 4 mPa s (one packing)", bool(spreads[0] < spreads[1] < spreads[2] and spreads[2] - spreads[0] > 0.5))
-heights = [r.thickness[at(r, 0.2)] / UM for _, r in viscous["-darcy"]]
-study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.2 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for (m, _), x in zip(viscous["-darcy"], heights)) + "; with the same dewatering no difference",
+heights = [r.thickness[at(r, 0.1)] / UM for _, r in viscous["-darcy"]]
+study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.1 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for (m, _), x in zip(viscous["-darcy"], heights)) + "; with the same dewatering no difference",
             "Darcy's flux falls with viscosity, and the fall of the surface is imposed", FROM_INPUT if heights[0] < heights[1] < heights[2] else False)
 
 # ---- figures
@@ -106,10 +106,10 @@ def profile(axis, group, t, colour, label):
     axis.set(xlabel="solids (wt-%)", ylabel="height (µm)", ylim=(0, None))
 
 
-figure, axes = study.figure("fig35-viscosity", "Solids at 0.2 s at three viscosities, 20 um, 10 nm, 50 mV (Fig. 35): the same dewatering, and Darcy's as it is", columns=2)
-for axis, (end, title) in zip(axes, (("", "same dewatering"), ("-darcy", "Darcy's flux"))):
+figure, axes = study.figure("fig35-viscosity", "Solids at three viscosities, 20 um, 10 nm, 50 mV (Fig. 35): the same dewatering, and Darcy's as it is", columns=2)
+for axis, (end, title) in zip(axes, (("", "same dewatering, 0.2 s"), ("-darcy", "Darcy's flux, 0.1 s"))):
     for i, (m, r) in enumerate(viscous[end]):
-        profile(axis, [r], 0.2, f"C{i}", f"{m} mPa s")
+        profile(axis, [r], 0.1 if end else 0.2, f"C{i}", f"{m} mPa s")
     axis.set(title=title)
 axes[0].legend()
 figure, axes = study.figure("fig36-thickness", f"Thickness by the particles against surface potential at several times, {THICK} um, 10 nm (Fig. 36); bars: standard error", columns=2)
