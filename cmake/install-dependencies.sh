@@ -11,6 +11,7 @@ packages=(
   "ninja-build       runs the build"
   "libeigen3-dev     dense vectors and matrices (Eigen)"
   "libsuitesparse-dev  sparse Cholesky factorisation (CHOLMOD)"
+  "libopenblas0-serial  the dense arithmetic under CHOLMOD, several times faster than the reference BLAS"
   "libhdf5-dev       result files (HDF5)"
   "libyaml-cpp-dev   scenes (YAML)"
   "libgsl-dev        special functions, splines, statistics (GSL)"

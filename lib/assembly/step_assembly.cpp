@@ -13,7 +13,7 @@ namespace {
 
 // A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above; and rise by
 // this, since repulsion linearised deep inside a steep barrier throws a gap out too far.
-constexpr double largest_fall = 0.4, largest_rise = 3;
+constexpr double largest_fall = 0.2, largest_rise = 3;
 
 // Whether a gap came out far from what the system was linearised about.
 bool off_guess(double gap, double guess, bool refined) {

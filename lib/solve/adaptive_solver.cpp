@@ -8,9 +8,9 @@ namespace pigment::solve {
 
 namespace {
 
-// A factorisation costs about as much as 400 block-Jacobi iterations at a few thousand particles, a solve with the factor as
+// A factorisation of a few thousand particles costs about as much as 500 block-Jacobi iterations, a solve with the factor as
 // much as 20: so much is lost at worst before the factor is tried, and before it is made anew.
-constexpr int patience = 1000, refactor = 40;
+constexpr int patience = 500, refactor = 25;
 // The factor leaves the mean flow out, whose share of the spectrum, between one and 1/(1 - phi)^2, takes some 20 iterations.
 constexpr int refactor_beside_mean_flow = 60;
 // Beyond this many unknowns the factor's fill outgrows memory and its time that of any number of iterations.
