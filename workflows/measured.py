@@ -1,0 +1,54 @@
+"""Runs a command and keeps what it cost: measured.py [--limit SECONDS] RECORD.json COMMAND...
+
+RECORD.json: status (of the command; 128 + n where signal n ended it), seconds (wall), cpu_seconds, peak_memory (bytes, largest resident set),
+limit (null, or the seconds after which it was ended), message (last line that it wrote to stderr). A command that
+fails or is ended is a result like the others; one that was called wrongly (status 2, 3, 4) is an error. It imports no more than it must: a process begins with the resident
+set of the one that started it.
+"""
+import json
+import os
+import signal
+import sys
+import time
+
+arguments, limit = sys.argv[1:], None
+if arguments[0] == "--limit":
+    limit, arguments = float(arguments[1]), arguments[2:]
+record, command = arguments[0], arguments[1:]
+log = record + ".log"
+
+began = time.monotonic()
+child = os.fork()
+if child == 0:
+    try:
+        output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644)
+        os.dup2(output, 2)
+        os.execvp(command[0], command)
+    except OSError as error:
+        os.write(2, f"{command[0]}: {error.strerror}\n".encode())
+    os._exit(127)
+late = False
+
+
+def out_of_time(*_):
+    global late
+    late = True
+    os.kill(child, signal.SIGTERM)
+
+
+if limit is not None:
+    signal.signal(signal.SIGALRM, out_of_time)
+    signal.setitimer(signal.ITIMER_REAL, limit)
+_, status, used = os.wait4(child, 0)
+signal.setitimer(signal.ITIMER_REAL, 0)
+seconds = time.monotonic() - began
+status = os.waitstatus_to_exitcode(status)
+with open(log, errors="replace") as lines:
+    said = [line.strip() for line in lines if line.strip()]
+if status in (2, 3, 4, 127):  # the study's own mistake, or a full disk
+    sys.exit("\n".join(said) or f"{command[0]}: status {status}")
+result = {"status": status if status >= 0 else 128 - status, "seconds": seconds, "cpu_seconds": used.ru_utime + used.ru_stime,
+          "peak_memory": used.ru_maxrss * 1024, "limit": limit if late else None, "message": said[-1] if said else ""}
+with open(record + ".part", "w") as file:
+    json.dump(result, file, indent=1)
+os.replace(record + ".part", record)
