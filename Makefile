@@ -22,7 +22,7 @@ help:
 	@echo 'make test            build, run all tests'
 	@echo 'make bench           build, run the benchmarks'
 	@echo 'make bench-peers     one solve beside LAMMPS (package lammps) on the same positions'
-	@echo 'make speed           build, measure wall time against error'
+	@echo 'make speed           study-accuracy and the time of the measuring tools, write docs/speed.md'
 	@echo 'make study-NAME      run one study; SIZE=quick or SIZE=full, -j N, LAUNCH="srun -n1"'
 	@echo '                     studies: $(STUDIES)'
 	@echo 'make studies         run all of them; one report of their claims and figures: $(BUILD)/studies/report.html'
@@ -62,10 +62,10 @@ bench-peers: configure
 	cmake --build $(BUILD) --parallel $(JOBS) --target all bench_peers
 	workflows/peers/compare.sh '$(abspath $(BUILD))/bin' '$(abspath $(BUILD))/bench' '$(BUILD)/peers'
 
-# Wall times and errors of packing and stepping, as in docs/speed.md. Nothing else should run beside it.
-speed: build
-	workflows/speed/measure.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
-	workflows/speed/analyses.sh '$(abspath $(BUILD))/bin' '$(BUILD)/speed'
+# Wall time against error (study-accuracy), and of the measuring tools, as docs/speed.md. Nothing else should run beside it.
+speed: study-accuracy
+	workflows/replace_if_changed.sh $(BUILD)/studies/accuracy/analyses.md workflows/accuracy/analyses.sh '$(abspath $(BUILD))/bin' '$(BUILD)/studies/accuracy/analyses'
+	workflows/replace_if_changed.sh docs/speed.md /usr/bin/python3 workflows/accuracy/speed_page.py '$(BUILD)/studies/accuracy'
 
 # Errors of the resistance models (study-hydrodynamics) and what a pair costs, as docs/accuracy.md. Nothing else should run beside it.
 accuracy: study-hydrodynamics

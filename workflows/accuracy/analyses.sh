@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Wall time of the measuring tools, pictures and exports for 20,000 particles of a 30 um layer and 100 frames.
-# Usage: analyses.sh BIN FOLDER; `make speed` calls it.
+# Usage: analyses.sh BIN FOLDER; `make speed` calls it. Prints a table as docs/speed.md has it; what it
+# says besides goes to stderr.
 set -euo pipefail
 bin=$1 folder=$2 here=$(cd "$(dirname "$0")" && pwd)
 scene=$here/../drying/scene.yaml
@@ -25,7 +26,7 @@ with h5py.File('pack65.h5') as source, h5py.File('shrinking.h5', 'w') as f:
     group['box/edges/value'] = box * np.c_[np.ones(frames), np.ones(frames), share]
     for name in ('radius', 'mass', 'species', 'id'):
         group[name] = layer[name][:]
-    print(f'{count} particles, {frames} frames')
+    print(f'| | s, for {count} particles and {frames} frames |\n|---|---|')
 PY
 timed() {  # name command...
   local name=$1 begin end
@@ -33,7 +34,7 @@ timed() {  # name command...
   begin=$(date +%s.%N)
   "$@" --quiet 2> "$name.log" || { cat "$name.log" >&2; exit 1; }
   end=$(date +%s.%N)
-  awk -v n="$name" -v b="$begin" -v e="$end" 'BEGIN { printf "%-24s %6.1f s\n", n, e - b }'
+  awk -v n="$name" -v b="$begin" -v e="$end" 'BEGIN { printf "| %s | %.1f |\n", n, e - b }'
 }
 for tool in solids cluster separation mobility; do
   timed $tool "$bin/pigment-$tool" shrinking.h5 -o $tool.h5
@@ -44,4 +45,4 @@ for ending in xdmf xyz nm.h5; do
   timed "export-$ending" "$bin/pigment-export" shrinking.h5 -o "export.$ending"
 done
 timed report "$bin/pigment-report" shrinking.h5 solids.h5 cluster.h5 separation.h5 mobility.h5 -o report.html
-awk -v b="$(stat -c %s report.html)" 'BEGIN { printf "the report has %.1f MB\n", b / 1e6 }'
+awk -v b="$(stat -c %s report.html)" 'BEGIN { printf "\nThe report has %.1f MB.\n", b / 1e6 }'
