@@ -74,7 +74,7 @@ void run(app::CommandLine& line) {
   if (!options.kbrown.empty()) {
     problem.calibration = calibration::read_calibration(options.kbrown);
     provenance.inputs["kbrown"] = io::sha256_of_file(options.kbrown);
-  } else if (problem.interactions.brownian) {
+  } else if (problem.interactions.brownian && problem.interactions.brownian->model == forces::BrownianParameters::Model::KBrown) {
     note("no --kbrown given: K_Brown by its closed form");
   }
   const stepping::RunSettings settings = scene::run_settings_of(scene, problem);

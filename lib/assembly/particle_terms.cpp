@@ -10,10 +10,11 @@ namespace pigment::assembly {
 
 resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
   const double a = radius_[k], gap = resistance::hydrodynamic_gap(position_[k].z() - a, a);
-  resistance::SqueezeStep s{resistance::wall_term(interactions_.hydrodynamics, a, gap).perpendicular, 0};
+  const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
+  resistance::SqueezeStep s{resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular, 0};
   const double guess = substrate_geometry_[k].gap;
-  if (guess != position_[k].z() - a && guess > 0 && gap > 0) {
-    const resistance::SqueezeStep step = resistance::squeeze_step(a, gap, guess);  // 6 pi a^2/h: a pair's with R = a
+  if ((newton_ || path_resistance_) && guess != position_[k].z() - a && guess > 0 && gap > 0) {
+    const resistance::SqueezeStep step = resistance::squeeze_step(a, gap, guess, at);  // 6 pi a^2/h: a pair's with R = a
     s.coefficient += step.coefficient;
     s.impulse = step.impulse;
   }
@@ -21,6 +22,7 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
 }
 
 StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
+  if (path_) return path_substrate_state(k);
   SubstrateState s{position_[k].z() - radius_[k], 0, 0};
   if (interactions_.substrate->colloidal)
     for (const auto& law : laws_) {
@@ -38,7 +40,8 @@ StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
 
 StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   const forces::FreeSurfaceParameters& surface = *interactions_.free_surface;
-  const double a = radius_[k], gap = film_.height_begin - position_[k].z() - a;
+  const double a = radius_[k], height = path_resistance_ ? 0.5 * (film_.height_begin + surface_end_) : film_.height_begin;
+  const double gap = height - resistance_height_[k] - a;
   SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
   // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
   if (interactions_.lubrication())
@@ -58,7 +61,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
     const double a = radius_[k], drag = flow_ ? flow_->drag(k) : mu * resistance::stokes_drag(a);
     solve::ParticleTerm t{drag, drag, 0, mu * resistance::stokes_torque(a), mu * resistance::stokes_torque(a)};
     double* f = rhs + static_cast<std::size_t>(k) * D;
-    for (int d = 0; d < D; ++d) f[d] = 0;
+    for (int d = 0; d < D; ++d) f[d] = random_force_.empty() ? 0 : random_force_[static_cast<std::size_t>(k) * D + d];
     if (!external_force_.empty())
       for (int d = 0; d < 3; ++d) f[d] += external_force_[k][d];
     f[2] += flow_ ? flow_->force(k) : -drag * film_.absorption;  // (10): relative to the liquid, which moves with -q e_z
@@ -66,7 +69,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
     if (interactions_.substrate) {
       if (interactions_.lubrication()) {
-        const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, position_[k].z() - a);
+        const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, resistance_height_[k] - a);
         const resistance::SqueezeStep squeeze = wall_squeeze(k);
         const double perpendicular = mu * squeeze.coefficient;
         f[2] += mu * squeeze.impulse / dt_;
@@ -81,7 +84,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       const SubstrateState s = substrate_state(k);
       const double stiffness = std::max(s.stiffness, 0.0);
       f[2] += s.force + (implicit_ ? stiffness * (substrate_geometry_[k].gap - s.gap_begin) : 0);
-      t.along += dt * stiffness;
+      if (!resistance_only_) t.along += dt * stiffness;
     }
     if (interactions_.free_surface) {
       const SurfaceState s = surface_state(k);
@@ -99,7 +102,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - surface_end_;
       if (s.stiffness > 0) {
         f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
-        t.along += dt_ * s.stiffness;
+        if (!resistance_only_) t.along += dt_ * s.stiffness;
       }
       system.held[k] = protrusion_guess_[k] == held;
       system.held_velocity[k] = system.held[k] ? -without_motion / dt_ : 0;

@@ -67,6 +67,8 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height);
   normal_.resize(pairs_.size());
   gap_begin_.resize(pairs_.size());
+  resistance_gap_.resize(pairs_.size());
+  resistance_height_.resize(n);
   scalars_.resize(pairs_.size());
   position_.resize(n);
   protrusion_guess_.assign(n, 0.0);
@@ -75,6 +77,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   const std::vector<int> count = chunk_of_pairs(topology_);
   force_.resize(count.size());
   stiffness_.resize(count.size());
+  term_.resize(count.size());
   for (std::size_t c = 0; c < count.size(); ++c) {
     force_[c].resize(count[c]);
     stiffness_[c].resize(count[c]);
@@ -92,8 +95,13 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
   }
   liquid_ = liquid;
   dt_ = dt;
-  implicit_ = treatment != Treatment::Explicit;
+  implicit_ = treatment != Treatment::Explicit && treatment != Treatment::ExplicitMidpoint;
   newton_ = treatment == Treatment::Newton;
+  path_force_ = treatment == Treatment::PathAverage;
+  path_ = path_force_ || treatment == Treatment::ExplicitMidpoint || treatment == Treatment::ImplicitMidpoint;
+  path_resistance_ = path_ && !(interactions_.brownian && !interactions_.brownian->drift);
+  passes_ = 0;
+  random_force_.clear();
   if (liquid.temperature != prepared_temperature_) {
     laws_.clear();
     for (const auto& [name, law] : interactions_.colloidal) laws_.push_back(law->prepare(liquid));
@@ -105,6 +113,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < n; ++k) {
     position_[k] = position[order_[k]];
+    resistance_height_[k] = position_[k].z();
     if (!force.empty()) external_force_[k] = force[order_[k]];
     if (interactions_.free_surface) protrusion_guess_[k] = protrusion[order_[k]];
     if (interactions_.substrate) substrate_geometry_[k].gap = position_[k].z() - radius_[k];
@@ -117,9 +126,10 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       const Vec3 d = cell_.minimum_image(position_[j] - position_[i]);
       const double r = d.norm();
       normal_[p] = d / r;
-      gap_begin_[p] = geometry_[p].gap = r - radius_[i] - radius_[j];
+      gap_begin_[p] = geometry_[p].gap = resistance_gap_[p] = r - radius_[i] - radius_[j];
       if (interactions_.lubrication()) scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]);
     }
+  if (path_) begin_path();
 }
 
 void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs) const {
@@ -128,7 +138,11 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
   std::vector<double>&force = force_[chunk], &stiffness = stiffness_[chunk];
   std::fill(force.begin(), force.end(), 0.0);
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
-  for (const auto& law : laws_) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
+  if (path_) {
+    if (!resistance_only_) path_forces(chunk, force, stiffness);
+  } else {
+    for (const auto& law : laws_) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
+  }
   solve::FullPairs& full = system.full[chunk];
   solve::SqueezePairs& squeeze = system.squeeze[chunk];
   full.clear();
@@ -138,16 +152,17 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
     const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
-    double f = force[p - begin] + k * (guess - gap_begin_[p]);
+    double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_begin_[p]));
     const std::int32_t target = topology_.target(p);
     const resistance::PairScalars& s = scalars_[p];
     double viscous = s.squeeze;
-    if (viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
+    const double at = resistance_gap_[p];
+    if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
       const forces::PairGeometry& g = geometry_[p];
       const double smaller = std::min(g.radius_a, g.radius_b);
-      const double weight = resistance::taper(gap_begin_[p] / smaller, interactions_.hydrodynamics.taper.squeeze_begin,
+      const double weight = resistance::taper(at / smaller, interactions_.hydrodynamics.taper.squeeze_begin,
                                               interactions_.hydrodynamics.taper.squeeze_end);
-      const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess);
+      const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess, at);
       viscous += weight * step.coefficient;
       f += mu * weight * step.impulse / dt_;
     }
@@ -159,12 +174,18 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const double total = mu * viscous + dt_ * k;
     if (s.shear > 0) {
       const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);
-      full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * gap_begin_[p], radius_[j] + 0.5 * gap_begin_[p],
+      full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * at, radius_[j] + 0.5 * at,
                       total, mu * o.twist, mu * o.a, mu * o.b, mu * o.c});
     } else if (total > 0) {
       squeeze.push_back({i, j, target, {n[0], n[1], n[2]}, total});
     }
   }
+}
+
+void StepAssembly::build_resistance(solve::PairSystem& system) {
+  resistance_only_ = true;
+  build(system);
+  resistance_only_ = false;
 }
 
 void StepAssembly::build(solve::PairSystem& system) const {
@@ -232,7 +253,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
     check.smallest_gap = std::numeric_limits<double>::infinity();
-    for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
+    if (path_) follow_path(c, u, check);
+    for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1) && !path_; ++p) {
       const auto [i, j] = pairs_[p];
       Vec3 d = normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]);
       for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
@@ -252,7 +274,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     }
     for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
       const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
-      if (interactions_.substrate) {
+      if (interactions_.substrate && !path_) {
         const double gap = z - a, begin = position_[k].z() - a;
         double& guess = substrate_geometry_[k].gap;
         if (interactions_.lubrication() && begin > 0) {
@@ -287,6 +309,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       }
     }
   }
+  if (path_resistance_ && flow_) follow_flow(u);
+  ++passes_;
   GapCheck all = checks[0];
   for (const GapCheck& check : checks) {
     all.refine = all.refine || check.refine;

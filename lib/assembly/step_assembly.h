@@ -46,8 +46,10 @@ struct GapCheck {
 };
 
 // How a step takes what depends on the gaps: forces and resistances at its beginning; forces linearised there; or both
-// linearised about the gaps that come out, found by iteration.
-enum class Treatment { Explicit, LinearlyImplicit, Newton };
+// linearised about the gaps that come out, found by iteration. For noise that obeys fluctuation and dissipation
+// (assembly/path_average.cpp): forces as in the first two or averaged along the step, and, unless asked not to
+// (Interactions::brownian, drift), the resistance half-way between the step's ends.
+enum class Treatment { Explicit, LinearlyImplicit, Newton, ExplicitMidpoint, ImplicitMidpoint, PathAverage };
 
 class StepAssembly {
  public:
@@ -60,6 +62,10 @@ class StepAssembly {
              const std::vector<double>& protrusion);
   // Fills the system for the current guesses.
   void build(solve::PairSystem&) const;
+  // Fills the system with R at the beginning of the step alone: no stiffness; its right-hand side means nothing.
+  void build_resistance(solve::PairSystem&);
+  // A random force, engine order, D a particle, that acts from here to the next begin().
+  void set_random_force(std::vector<double> force) { random_force_ = std::move(force); }
   // Judges a solution (engine order) of the system built last and moves the guesses towards it.
   GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution);
 
@@ -90,6 +96,12 @@ class StepAssembly {
   resistance::SqueezeStep wall_squeeze(int k) const;  // the whole perpendicular term of the substrate
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
+  void begin_path();
+  void path_forces(int chunk, std::vector<double>& force, std::vector<double>& stiffness) const;
+  void follow_flow(const std::vector<double>& solution);
+  void follow_path(int chunk, const std::vector<double>& solution, GapCheck&);
+  forces::PairTerm substrate_term(const forces::PairGeometry&) const;
+  SubstrateState path_substrate_state(int k) const;
 
   const Interactions& interactions_;
   Cell cell_;
@@ -114,12 +126,21 @@ class StepAssembly {
   SurfaceSearch search_;                   // of a pressure-limited surface
   double surface_end_ = 0;                 // height at the step's end, um
   double entry_pressure_ = 0;              // of air into the pores, pN/um^2; pressure-limited only
+  std::vector<double> resistance_gap_;     // gap at which R is taken: that at the beginning, or half-way
+  std::vector<double> resistance_height_;  // of a particle's centre, likewise
+  std::vector<double> random_force_;
+  bool path_ = false, path_resistance_ = false, path_force_ = false, resistance_only_ = false;
+  int passes_ = 0;  // solutions judged in this step
+  // What the averages along the step start from.
+  std::vector<Vec3> separation_;                             // one a pair, from i to j
+  std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;
+  mutable std::vector<std::vector<forces::PairTerm>> term_;  // one array a chunk
   // What each particle is to the surface: free (0), held exactly (`held`), or lifted on the spring by so much, um; and how it
   // came out, with the force of those held, pN.
   static constexpr double held = 1e-12;
   std::vector<double> protrusion_guess_, protrusion_end_, holding_force_;
   mutable std::vector<std::vector<double>> force_, stiffness_;  // one array a chunk
-  mutable std::vector<resistance::PairScalars> scalars_;        // at gap_begin_, one a pair
+  mutable std::vector<resistance::PairScalars> scalars_;        // at resistance_gap_, one a pair
 };
 
 }  // namespace pigment::assembly

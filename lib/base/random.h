@@ -15,6 +15,10 @@ enum class Stream : std::uint64_t {
   Calibration = 5,
   Tests = 6,
   PorePoints = 7,
+  ThermalParticle = 8,
+  ThermalPair = 9,
+  ThermalShear = 10,
+  ThermalFlow = 11,
 };
 
 struct RandomKey {

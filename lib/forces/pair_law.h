@@ -43,6 +43,8 @@ class PreparedPairLaw {
   virtual PairTerm switched(const PairGeometry&) const = 0;        // as the engine uses it
   // Adds force and stiffness of each pair (switched); arrays of equal length.
   virtual void add(std::span<const PairGeometry>, std::span<double> force, std::span<double> stiffness) const = 0;
+  // The same with energies.
+  virtual void add(std::span<const PairGeometry>, std::span<PairTerm>) const = 0;
 };
 
 class PairLaw {
@@ -76,6 +78,15 @@ class PreparedFormula final : public PreparedPairLaw {
       const PairTerm term = faded(pairs[p]);
       force[p] += term.force;
       stiffness[p] += term.stiffness;
+    }
+  }
+  void add(std::span<const PairGeometry> pairs, std::span<PairTerm> sum) const override {
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      if (pairs[p].gap >= formula_.cutoff_gap) continue;
+      const PairTerm term = faded(pairs[p]);
+      sum[p].energy += term.energy;
+      sum[p].force += term.force;
+      sum[p].stiffness += term.stiffness;
     }
   }
 

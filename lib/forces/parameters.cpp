@@ -45,7 +45,8 @@ BrownianParameters read_brownian(config::Node node) {
   using P = BrownianParameters;
   P p;
   p.model = node.choice<P::Model>("model", {{"k_brown", P::Model::KBrown}, {"fluctuation_dissipation", P::Model::FluctuationDissipation}}, "k_brown");
-  if (p.model == P::Model::FluctuationDissipation) node.error("model", "\"fluctuation_dissipation\" is not available in this version; use k_brown");
+  p.drift = node.boolean("drift", true);
+  if (!p.drift && p.model == P::Model::KBrown) node.error("drift", "belongs to model: fluctuation_dissipation; k_brown has none");
   config::Node calibration = node.block("calibration");
   if (calibration.has("temperatures"))
     p.temperatures = calibration.quantities("temperatures", Dimension::Temperature, {}, config::between(253.15, 383.15));

@@ -46,6 +46,7 @@ GravityParameters read_gravity(config::Node);
 struct BrownianParameters {
   enum class Model { KBrown, FluctuationDissipation };
   Model model = Model::KBrown;
+  bool drift = true;  // fluctuation_dissipation: with kT div(R^-1); without it the distribution is wrong, for comparison
   // calibration: by pigment-kbrown
   std::vector<double> temperatures;      // K; empty: the scene's
   int simulations = 25, displacements = 45000;

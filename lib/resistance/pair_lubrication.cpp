@@ -106,4 +106,9 @@ SqueezeStep squeeze_step(double R, double gap_begin, double gap_guess) {
   return {c * y / gap_begin, c * rest};
 }
 
+SqueezeStep squeeze_step(double R, double gap_begin, double gap_guess, double gap_at) {
+  const SqueezeStep s = squeeze_step(R, gap_begin, gap_guess);
+  return {s.coefficient + 6 * pi * R * R * (1 / gap_begin - 1 / gap_at), s.impulse};
+}
+
 }  // namespace pigment::resistance

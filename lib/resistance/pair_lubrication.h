@@ -56,4 +56,7 @@ struct SqueezeStep {
   double impulse = 0;      // um^2
 };
 SqueezeStep squeeze_step(double reduced_radius, double gap_begin, double gap_guess);
+// The same where the scalar was taken at another gap than h0: 1/h0 in the force and in the coefficient is then that gap's.
+SqueezeStep squeeze_step(double reduced_radius, double gap_begin, double gap_guess, double gap_at);
+
 }  // namespace pigment::resistance

@@ -155,6 +155,17 @@ class Writer {
                         needed && std::isfinite(up_to)
                             ? fmt::format("; it counts up to {:.2g} um", std::min(up_to, layer_->largest))
                             : ""));
+    if (rates_->slowest <= 0) return;
+    for (const double d : {layer_->smallest, std::sqrt(layer_->smallest * layer_->largest), layer_->largest}) {
+      const double pe = peclet(liquid_.viscosity, d / 2, d, rates_->slowest, liquid_.thermal_energy());
+      line("    {:.2g} um: Pe {:.2g} at the slowest rate, {}; without Brownian motion {}", d, pe,
+           fmt::format("{:.2g} um of spread", d / pe),
+           pe < 1 / diffusion_share ? "it would stay where the flow carries it, and cakes would end too sharply"
+                                    : "its motion would hardly change");
+      if (layer_->largest <= layer_->smallest) break;
+    }
+    if (scene_.brownian && scene_.brownian->model == forces::BrownianParameters::Model::KBrown)
+      line("    model k_brown: near pairs are too cold by it (docs/physics.md); fluctuation_dissipation is not");
   }
 
   void gravity() {

@@ -93,6 +93,15 @@ void check_surface(config::Node& root, const Scene& scene, const std::string& st
                "\"strategy: ABS\" here");
 }
 
+// The integrators whose noise obeys fluctuation and dissipation (stepping/integrators.cpp).
+void check_integrator(config::Node& root, const Scene& scene) {
+  using I = stepping::SteppingParameters::Integrator;
+  if (!scene.brownian || scene.brownian->model != forces::BrownianParameters::Model::FluctuationDissipation) return;
+  const I i = scene.stepping.integrator;
+  if (i == I::Automatic || i == I::LinearlyImplicit || i == I::ExplicitEuler) return;
+  root.block("stepping").error("integrator", "does not have the statistics of brownian.model: fluctuation_dissipation; write auto, linearly_implicit or explicit_euler");
+}
+
 }  // namespace
 
 dewatering::Coating coating_of(const Scene& scene) {
@@ -128,6 +137,7 @@ Scene read_scene(config::Document& document, const std::string& stage_name) {
   check_dewatering(root, scene);
   if (!document.has_errors()) check_final_solids(root, scene);
   check_surface(root, scene, stage_name);
+  check_integrator(root, scene);
   document.check();
   return scene;
 }

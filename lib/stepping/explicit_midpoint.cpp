@@ -9,7 +9,7 @@ class ExplicitMidpoint final : public Integrator {
  public:
   Attempt attempt(StepContext& context, const RunState& state, double dt, bool with_error) const override {
     Attempt a;
-    const StepSolution first = context.solve({state.position, state.protrusion, state.time, 0.5 * dt, state.step, state.surface_height, state.surface_velocity},
+    const StepSolution first = context.solve({state.position, state.protrusion, state.time, 0.5 * dt, {state.step}, state.surface_height, state.surface_velocity},
                                              assembly::Treatment::Explicit, context.extrapolated_velocity(state));
     a.last = first;
     a.iterations = first.iterations;
@@ -19,7 +19,7 @@ class ExplicitMidpoint final : public Integrator {
     const Vec3Array middle = moved(state.position, a.velocity, 0.5 * dt);
     const std::vector<double> gap = context.gaps_of_last_step();
     // From the middle on the surroundings are those of the second half.
-    a.last = context.solve({middle, first.protrusion, state.time + 0.5 * dt, 0.5 * dt, state.step, first.check.surface_height, state.surface_velocity},
+    a.last = context.solve({middle, first.protrusion, state.time + 0.5 * dt, 0.5 * dt, {state.step}, first.check.surface_height, state.surface_velocity},
                            assembly::Treatment::Explicit, first.velocity);
     a.iterations += a.last.iterations;
     a.solves += a.last.solves;

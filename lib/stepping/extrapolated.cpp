@@ -17,11 +17,11 @@ class Extrapolated final : public Integrator {
   Attempt attempt(StepContext& context, const RunState& state, double dt, bool with_error) const override {
     Attempt a;
     const std::vector<double> guess = context.extrapolated_velocity(state);
-    const StepSolution whole = context.solve({state.position, state.protrusion, state.time, dt, state.step, state.surface_height, state.surface_velocity},
+    const StepSolution whole = context.solve({state.position, state.protrusion, state.time, dt, {state.step}, state.surface_height, state.surface_velocity},
                                               assembly::Treatment::Newton, guess);
     if (!take(a, whole)) return a;
     const std::vector<double> gap = context.gaps_of_last_step();
-    const StepSolution first = context.solve({state.position, state.protrusion, state.time, 0.5 * dt, state.step, state.surface_height, state.surface_velocity},
+    const StepSolution first = context.solve({state.position, state.protrusion, state.time, 0.5 * dt, {state.step}, state.surface_height, state.surface_velocity},
                                              assembly::Treatment::Newton, guess.empty() ? guess : whole.velocity);
     if (!take(a, first)) return a;
     Vec3Array u, w;
@@ -30,7 +30,7 @@ class Extrapolated final : public Integrator {
     // The whole step's velocity is nearly that of its middle: the second half's is extrapolated from the two.
     std::vector<double> second_guess = whole.velocity;
     for (std::size_t q = 0; q < second_guess.size(); ++q) second_guess[q] += whole.velocity[q] - first.velocity[q];
-    const StepSolution second = context.solve({middle, first.protrusion, state.time + 0.5 * dt, 0.5 * dt, state.step, first.check.surface_height,
+    const StepSolution second = context.solve({middle, first.protrusion, state.time + 0.5 * dt, 0.5 * dt, {state.step}, first.check.surface_height,
                                                state.surface_velocity}, assembly::Treatment::Newton, std::move(second_guess));
     if (!take(a, second)) return a;
     // Extrapolated as the velocities are, so that the forces on the layer balance.

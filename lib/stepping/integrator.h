@@ -38,6 +38,7 @@ std::unique_ptr<Integrator> explicit_midpoint();
 std::unique_ptr<Integrator> linearly_implicit();
 std::unique_ptr<Integrator> newton_implicit();
 std::unique_ptr<Integrator> extrapolated();
+std::unique_ptr<Integrator> fluctuating(assembly::Treatment);
 
 // x0 + dt U for every particle.
 Vec3Array moved(const Vec3Array& position, const Vec3Array& velocity, double dt);

@@ -4,6 +4,12 @@ namespace pigment::stepping {
 
 std::unique_ptr<Integrator> make_integrator(const Problem& problem) {
   using I = SteppingParameters::Integrator;
+  const auto& brownian = problem.interactions.brownian;
+  if (brownian && brownian->model == forces::BrownianParameters::Model::FluctuationDissipation) {
+    if (problem.stepping.integrator == I::ExplicitEuler) return fluctuating(assembly::Treatment::ExplicitMidpoint);
+    if (problem.stepping.integrator == I::LinearlyImplicit) return fluctuating(assembly::Treatment::ImplicitMidpoint);
+    return fluctuating(assembly::Treatment::PathAverage);
+  }
   switch (problem.stepping.integrator) {
     case I::ExplicitEuler: return explicit_euler();
     case I::ExplicitMidpoint: return explicit_midpoint();

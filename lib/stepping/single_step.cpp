@@ -5,7 +5,7 @@ namespace pigment::stepping {
 
 Attempt single_step(StepContext& context, const RunState& state, double dt, assembly::Treatment treatment, bool with_error) {
   Attempt a;
-  a.last = context.solve({state.position, state.protrusion, state.time, dt, state.step, state.surface_height, state.surface_velocity}, treatment,
+  a.last = context.solve({state.position, state.protrusion, state.time, dt, {state.step}, state.surface_height, state.surface_velocity}, treatment,
                          context.extrapolated_velocity(state));
   a.iterations = a.last.iterations;
   a.solves = a.last.solves;

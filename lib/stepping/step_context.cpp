@@ -55,6 +55,8 @@ void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
   range.skin = std::max(0.02, (problem_.interactions.brownian ? 0.8 : 0.4) * smallest);
   list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
   assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);
+  id_.resize(list_.order.size());
+  for (std::size_t k = 0; k < id_.size(); ++k) id_[k] = problem_.particles.id[list_.order[k]];
 }
 
 void StepContext::refresh_list(RunState& state) {
@@ -161,9 +163,15 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   const bool noisy = problem_.interactions.brownian.has_value();
   const Liquid liquid = liquid_at_time(start.time);
   gap_scale_ = gap_scale(problem_.interactions, liquid);
-  const Vec3Array force = noisy ? brownian_force(start.number, start.step, liquid) : Vec3Array{};
+  const bool thermal = noisy && problem_.interactions.brownian->model == forces::BrownianParameters::Model::FluctuationDissipation;
+  const Vec3Array force = noisy && !thermal ? brownian_force(start.noise.step, start.step, liquid) : Vec3Array{};
   solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
   assembly_->begin(start.position, film(start), liquid, start.step, treatment, force, start.protrusion);
+  if (thermal) {
+    assembly_->build_resistance(system_);
+    assembly_->set_random_force(
+        assembly::thermal_force(system_, id_, problem_.seed, start.noise, std::sqrt(2 * liquid.thermal_energy() / start.step)));
+  }
   StepSolution s;
   s.velocity = std::move(guess);
   const int most = problem_.interactions.pressure_limited() ? most_with_search : most_refinements;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assembly/step_assembly.h"
+#include "assembly/thermal_force.h"
 #include "solve/adaptive_solver.h"
 #include "stepping/problem.h"
 #include "stepping/run_state.h"
@@ -19,7 +20,7 @@ struct StepStart {
   const std::vector<double>& protrusion;  // guess for the free surface, file order, um
   double time = 0;                        // ms
   double step = 0;                        // ms
-  std::int64_t number = 0;                // of the step: names its noise
+  assembly::NoiseInterval noise;          // of the step: names its random numbers
   double surface_height = 0, surface_velocity = 0;  // of a pressure-limited surface at the beginning, um and um/ms
 };
 
@@ -88,6 +89,7 @@ class StepContext {
   const Problem& problem_;
   neighbours::NeighbourList list_;
   std::unique_ptr<assembly::StepAssembly> assembly_;
+  std::vector<std::int64_t> id_;  // engine order
   solve::PairSystem system_;
   solve::AdaptiveSolver solver_;
   double gap_scale_ = 0;  // um, at the temperature of the step solved last

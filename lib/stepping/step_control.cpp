@@ -22,6 +22,13 @@ double solver_tolerance(const SteppingParameters& p, bool noisy) {
   return p.solver_tolerance.value_or(noisy ? 1e-3 : std::clamp(0.1 * p.tolerance, 1e-8, 1e-3));
 }
 
+double thermal_step(const Particles& particles, const Liquid& liquid, double scale, bool lubrication) {
+  const double smallest = *std::min_element(particles.radius.begin(), particles.radius.end());
+  if (!lubrication) return brownian_step(particles, liquid, scale) / 36;
+  const double reduced = 0.5 * smallest;
+  return 0.25 * scale * 6 * std::numbers::pi * liquid.viscosity * reduced * reduced / liquid.thermal_energy();
+}
+
 double next_step(double step, double error) {
   const double wanted = error > 0 ? 0.9 / std::sqrt(error) : 1.5;
   return step * std::clamp(wanted, 0.3, 1.5);

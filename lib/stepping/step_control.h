@@ -17,6 +17,11 @@ namespace pigment::stepping {
 double gap_scale(const assembly::Interactions&, const Liquid&);
 // ms.
 double brownian_step(const Particles&, const Liquid&, double gap_scale);
+// ms, with noise that obeys fluctuation and dissipation. Near contact a pair's squeeze resistance is c/gap, c = 6 pi mu R^2, and
+// gap, force and noise are all made dimensionless by the Debye length l and the time l c/kT: one number, dt kT/(l c), sets
+// the error of the gaps, whatever the sizes. It is 0.25 for the smallest pair: a mean gap that is at most 3 % off, which
+// tests/physics/boltzmann_separation_test.cpp holds. Without lubrication: a component of the smallest particle moves by half a Debye length.
+double thermal_step(const Particles&, const Liquid&, double gap_scale, bool lubrication);
 // Relative residual of each solve: the scene's, or a tenth of the step tolerance. One step's noise moves particles by
 // nanometres either way: a thousandth of it is far below its own weak error.
 double solver_tolerance(const SteppingParameters&, bool noisy);

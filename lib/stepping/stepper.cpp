@@ -12,6 +12,13 @@ namespace {
 constexpr double shortest_step = 1e-9;  // ms
 // A step whose error is that many times what was asked for is taken again, shorter.
 constexpr double intolerable = 4;
+
+double noise_step(const Problem& p, const Liquid& liquid) {
+  const double scale = gap_scale(p.interactions, liquid);
+  return p.interactions.brownian->model == forces::BrownianParameters::Model::FluctuationDissipation
+             ? thermal_step(p.particles, liquid, scale, p.interactions.lubrication())
+             : brownian_step(p.particles, liquid, scale);
+}
 }  // namespace
 
 Stepper::Stepper(const Problem& problem, const RunState& state) : context_(problem, state), integrator_(make_integrator(problem)) {}
@@ -20,8 +27,8 @@ double Stepper::height_at(double time) const { return context_.height_at(time); 
 
 double Stepper::first_step(const Problem& p) {
   if (p.stepping.time_step) return *p.stepping.time_step;
-  const Liquid liquid = liquid_at(p.interactions.liquid, p.interactions.liquid.temperature);
-  if (p.interactions.brownian) return brownian_step(p.particles, liquid, gap_scale(p.interactions, liquid));
+  const Liquid liquid = liquid_at(p.interactions.liquid, p.dewatering.temperature_at(0, p.interactions.liquid.temperature));
+  if (p.interactions.brownian) return noise_step(p, liquid);
   return 1e-3;
 }
 
@@ -30,6 +37,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
   const bool fixed = problem.stepping.time_step.has_value(), noisy = problem.interactions.brownian.has_value();
   const bool controlled = !fixed && !noisy;
   context_.refresh_list(state);
+  // Chosen before the noise is drawn, and never after: the temperature may have changed.
+  if (noisy && !fixed) state.preferred_step = noise_step(problem, context_.liquid_at_time(state.time));
   double dt = std::min(state.preferred_step, longest);
   if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
   StepReport report;

@@ -126,6 +126,16 @@ TEST(Scene, ToolsDemandOnlyTheirBlocks) {
   EXPECT_THROW(stage("bogus"), InputError);
 }
 
+TEST(Scene, ThermalNoiseRefusesWhatLacksItsStatistics) {
+  const std::string thermal = "brownian: {model: fluctuation_dissipation}\n";
+  for (const char* integrator : {"auto", "linearly_implicit", "explicit_euler"})
+    EXPECT_EQ(refusal(thermal + "stepping: {integrator: " + integrator + "}\n"), "accepted") << integrator;
+  for (const char* integrator : {"extrapolated", "newton_implicit", "explicit_midpoint"})
+    EXPECT_NE(refusal(thermal + "stepping: {integrator: " + integrator + "}\n").find("s.yaml:2: stepping.integrator"), std::string::npos) << integrator;
+  EXPECT_EQ(refusal("brownian: {model: fluctuation_dissipation, drift: false}\n"), "accepted");
+  EXPECT_NE(refusal("brownian: {drift: false}\n").find("brownian.drift: belongs to"), std::string::npos);
+}
+
 TEST(Scene, UnknownBlocksAreFaults) {
   EXPECT_NE(refusal("particels: []").find("s.yaml:1: particels: unknown key; did you mean \"particles\"?"),
             std::string::npos);
