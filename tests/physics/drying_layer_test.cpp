@@ -118,12 +118,14 @@ TEST(DryingLayer, ParticlesStayBetweenSubstrateAndSurfaceAndNeverOverlap) {
 }
 
 TEST(DryingLayer, SameBytesAtAnyThreadCountAndHoweverOftenInterrupted) {
-  for (const char* scene : {"smooth", "brownian", "hindered", "pressure_limited"}) {
-    SmallLayer small = small_layer(scene == std::string("brownian"));
+  for (const char* scene : {"smooth", "brownian", "hindered", "pressure_limited", "thermal", "thermal_limited"}) {
+    const bool thermal = std::string(scene).starts_with("thermal");
+    SmallLayer small = small_layer(thermal || scene == std::string("brownian"));
+    if (thermal) small.problem.interactions.brownian->model = forces::BrownianParameters::Model::FluctuationDissipation;
     if (scene == std::string("hindered")) hinder(small);
-    if (scene == std::string("pressure_limited")) limit(small, 1.5);
+    if (std::string(scene).ends_with("limited")) limit(small, 1.5);
     // The limited one lags from the start: there the surface presses with 3 Pa.
-    const double until = small.problem.interactions.pressure_limited() ? 5 : 30;
+    const double until = thermal ? 2 : small.problem.interactions.pressure_limited() ? 5 : 30;
     omp_set_num_threads(2);
     const Recorded whole = run(small, 0, until);
     omp_set_num_threads(1);
@@ -234,4 +236,25 @@ TEST(DryingLayer, PressureLimitedSurfaceLagsAtTheEntryPressure) {
   const double liquid = small.problem.cell.area() * stepper.height_at(20) - solids_volume(small.problem.particles.radius);
   EXPECT_NEAR(r.observables.back()[3], solids / (solids + 1e-3 * liquid), 1e-9);
   EXPECT_NEAR(r.observables.back()[0], state.surface_height, 0.05);  // other steps, the same course
+}
+
+// With thermal noise, whose steps may be taken in parts, the limited surface starts every step where the last one left it, never
+// stands below what is drained, and where it keeps up presses with no more than the entry pressure.
+TEST(DryingLayer, PressureLimitedSurfaceBearsThermalNoise) {
+  SmallLayer small = small_layer(true);
+  small.problem.interactions.brownian->model = forces::BrownianParameters::Model::FluctuationDissipation;
+  const double entry = 1.5;
+  limit(small, entry);
+  stepping::RunState state = stepping::initial_state(small.problem, small.position);
+  stepping::Stepper stepper(small.problem, state);
+  int lagging = 0;
+  while (state.time < 1.5) {
+    const stepping::StepReport report = stepper.advance(state, 1.5 - state.time);
+    EXPECT_GE(report.height, stepper.height_at(state.time));
+    EXPECT_EQ(report.height, state.surface_height);
+    if (report.height > stepper.height_at(state.time)) ++lagging;
+    else EXPECT_LE(report.pressures.surface, 1.01 * entry);
+    for (std::size_t k = 0; k < state.position.size(); ++k) ASSERT_TRUE(std::isfinite(state.position[k].z()));
+  }
+  EXPECT_GT(lagging, 0);
 }
