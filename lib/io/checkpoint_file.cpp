@@ -107,8 +107,9 @@ void set_checkpoint_aside(const fs::path& output) {
 
 void remove_checkpoint(const fs::path& output) {
   std::error_code ignored;
-  for (const fs::path& name :
-       {checkpoint_path(output), previous_path(output), sibling(output, ".checkpoint.new.h5")})
+  // The last two are what a process killed in mid-write leaves.
+  for (const fs::path& name : {checkpoint_path(output), previous_path(output), sibling(output, ".checkpoint.new.h5"),
+                               sibling(output, ".checkpoint.new.h5.part")})
     fs::remove(name, ignored);
 }
 

@@ -222,6 +222,15 @@ TEST(Checkpoint, FallsBackToThePreviousOne) {
   EXPECT_TRUE(fs::is_empty(folder));
 }
 
+// What a process killed while it wrote a checkpoint leaves behind goes with the checkpoints.
+TEST(Checkpoint, TakesItsLeftoversAlong) {
+  const fs::path folder = fresh_folder(), output = folder / "t.h5";
+  write_checkpoint(output, {{}, {}, {{"scene", "a"}}});
+  put_bytes(folder / "t.checkpoint.new.h5.part", "half a file");
+  remove_checkpoint(output);
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
 TEST(Checkpoint, OfOtherInputsIsSetAside) {
   const fs::path folder = fresh_folder(), output = folder / "t.h5";
   for (int i = 1; i <= 2; ++i) write_checkpoint(output, {{}, {}, {{"scene", "a"}, {"packing", "p"}}});
