@@ -12,11 +12,10 @@
 
 namespace pigment::io::test {
 
-// An empty folder of its own for the running test.
+// An empty folder of its own for the running test, in the folder of the running process (support/main.cpp).
 inline std::filesystem::path fresh_folder() {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder =
-      std::filesystem::path(testing::TempDir()) / "pigment_io" / info->test_suite_name() / info->name();
+  const auto folder = std::filesystem::current_path() / info->test_suite_name() / info->name();
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -115,7 +115,7 @@ class TabulatedSizes : public testing::Test {
   SizeLaw law;
   void SetUp() override {
     law.kind = SizeLaw::Kind::Table;
-    law.file = std::filesystem::path(testing::TempDir()) / "size_distribution_test.csv";
+    law.file = "size_distribution_test.csv";
   }
   void write(const std::string& text) { std::ofstream(law.file) << text; }
   std::string refusal(const std::string& text) {
