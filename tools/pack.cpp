@@ -38,7 +38,8 @@ void declare(app::CommandLine& line, Options& options) {
 }
 
 packing::Recipe recipe_of(const scene::Scene& scene) {
-  return {*scene.layer, scene.packing, scene.species, scene.liquid.density, scene.seed};
+  return {*scene.layer, scene.packing, scene.species, scene.liquid.density, scene.seed, scene.substrate ? scene.substrate->crest() : 0,
+          scene.substrate ? scene.substrate->mean_height() : 0};
 }
 
 // One bar a stage.

@@ -67,7 +67,10 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
     f[2] += flow_ ? flow_->force(k) : -drag * film_.absorption;  // (10): relative to the liquid, which moves with -q e_z
     if (interactions_.gravity)
       f[2] -= (mass_[k] - liquid_.density * Particles::sphere_volume(a)) * interactions_.gravity->acceleration;
-    if (interactions_.substrate) {
+    if (rough_) {
+      rough_->add_far(k, mu, film_.absorption, t, f);
+      rough_->add_near(k, laws_, mu, dt_, implicit_, film_.absorption, D, f, system.own[chunk]);
+    } else if (interactions_.substrate) {
       if (interactions_.lubrication()) {
         const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, resistance_height_[k] - a);
         const resistance::SqueezeStep squeeze = wall_squeeze(k);
@@ -141,7 +144,9 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
     const double uz = u[k * D + 2];
     if (!flow_) total.liquid -= mu * resistance::stokes_drag(radius_[k]) * (uz + film_.absorption);
     if (interactions_.free_surface && protrusion_guess_[k] > 0) ++total.contacts;
-    if (interactions_.substrate) {
+    if (rough_) {
+      total.substrate += rough_->force_along_z(k, laws_, mu, dt_, implicit_, film_.absorption, static_cast<int>(D), &u[k * D]);
+    } else if (interactions_.substrate) {
       const SubstrateState s = substrate_state(k);
       const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
       total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - substrate_geometry_[k].gap);

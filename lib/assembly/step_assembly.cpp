@@ -4,23 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "assembly/gap_guess.h"
 #include "forces/surface_spring.h"
 #include "resistance/scene_resistance.h"
 
 namespace pigment::assembly {
 
 namespace {
-
-// A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above; and rise by
-// this, since repulsion linearised deep inside a steep barrier throws a gap out too far.
-constexpr double largest_fall = 0.2, largest_rise = 3;
-
-// Whether a gap came out far from what the system was linearised about.
-bool off_guess(double gap, double guess, bool refined) {
-  return refined ? std::abs(gap - guess) > 0.05 * guess : gap < 0.5 * guess;
-}
-
-double next_guess(double gap, double guess) { return std::clamp(gap, largest_fall * guess, largest_rise * guess); }
 
 std::vector<int> chunk_of_pairs(const solve::PairTopology& t) {
   std::vector<int> count;
@@ -57,7 +47,9 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
     const auto [i, j] = pairs_[p];
     geometry_[p] = {0, radius_[i], radius_[j], potential[i], potential[j]};
   }
-  if (interactions.substrate) {
+  if (interactions.substrate && interactions.substrate->roughness) {
+    rough_.emplace(interactions, cell, radius_, potential);
+  } else if (interactions.substrate) {
     substrate_geometry_.resize(n);
     for (std::size_t k = 0; k < n; ++k)
       substrate_geometry_[k] = {0, radius_[k], std::numeric_limits<double>::infinity(), potential[k],
@@ -116,8 +108,9 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     resistance_height_[k] = position_[k].z();
     if (!force.empty()) external_force_[k] = force[order_[k]];
     if (interactions_.free_surface) protrusion_guess_[k] = protrusion[order_[k]];
-    if (interactions_.substrate) substrate_geometry_[k].gap = position_[k].z() - radius_[k];
+    if (interactions_.substrate && !rough_) substrate_geometry_[k].gap = position_[k].z() - radius_[k];
   }
+  if (rough_) rough_->begin(position_, laws_);
   if (flow_) flow_->place(position_, interactions_.free_surface ? film.height_begin : 0, liquid.viscosity, film.absorption);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c)
@@ -197,6 +190,8 @@ void StepAssembly::build(solve::PairSystem& system) const {
   if (flow_) system.mean_flow = flow_->term();
   system.full.resize(chunks);
   system.squeeze.resize(chunks);
+  system.own.resize(rough_ ? chunks : 0);
+  for (auto& blocks : system.own) blocks.clear();
   const std::size_t D = system.unknowns_per_particle();
   const std::size_t halo = topology_.first_slot();
   std::vector<double> sum((halo + topology_.halo_count()) * D);
@@ -274,7 +269,10 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     }
     for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
       const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
-      if (interactions_.substrate && !path_) {
+      if (rough_) {
+        const Vec3 end = position_[k] + dt_ * Vec3(u[k * D], u[k * D + 1], u[k * D + 2]);
+        rough_->refine(k, end, newton_, check.refine, check.crossed);
+      } else if (interactions_.substrate && !path_) {
         const double gap = z - a, begin = position_[k].z() - a;
         double& guess = substrate_geometry_[k].gap;
         if (interactions_.lubrication() && begin > 0) {
@@ -327,6 +325,10 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   }
   all.surface_height = surface_end_;
   return all;
+}
+
+double StepAssembly::rough_gap(const Vec3& position, double radius) const {
+  return rough_ ? rough_->gap(position, radius) : std::numeric_limits<double>::infinity();
 }
 
 double StepAssembly::pair_force(std::size_t p) const {

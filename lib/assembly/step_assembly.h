@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assembly/interactions.h"
+#include "assembly/rough_substrate.h"
 #include "assembly/slice_flow.h"
 #include "assembly/surface_search.h"
 #include "model/particles.h"
@@ -79,6 +80,8 @@ class StepAssembly {
   std::vector<double> protrusions() const;
   // The liquid's slices, from below, for a solution; none without hindered drag.
   std::vector<SliceState> slice_states(const std::vector<double>& solution) const;
+  // Smallest distance of a sphere to a substrate that is not the plane, um; infinite for the plane.
+  double rough_gap(const Vec3& position, double radius) const;
   const neighbours::IndexPair& pair(std::size_t p) const { return pairs_[p]; }  // engine indices
   double pair_force(std::size_t p) const;  // colloidal, at the current guess
 
@@ -121,6 +124,7 @@ class StepAssembly {
   double prepared_temperature_ = -1;
   std::vector<Vec3> position_, external_force_;
   std::optional<SliceFlow> flow_;
+  std::optional<RoughSubstrate> rough_;    // in place of the plane
   std::vector<Vec3> normal_;               // one a pair
   std::vector<double> gap_begin_;          // one a pair
   SurfaceSearch search_;                   // of a pressure-limited surface

@@ -15,6 +15,7 @@ SubstrateParameters read_substrate(config::Node node) {
   p.colloidal = node.boolean("colloidal", true);
   p.suction = node.choice<Suction>("suction", {{"impermeable", Suction::Impermeable}, {"uniform", Suction::Uniform}}, "impermeable");
   p.surface_potential = node.optional_quantity("surface_potential", Dimension::Potential);
+  if (auto block = node.optional_block("roughness")) p.roughness = read_roughness(*block);
   return p;
 }
 

@@ -75,7 +75,8 @@ Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& p
   // is met too.
   const double height = recipe.layer.thickness ? target.thickness : volume * *recipe.layer.coat_weight / mass;
   const double width = std::sqrt(volume / height);
-  return {width, width, height};
+  // The thickness is that of the liquid and the solids over the substrate's mean height.
+  return {width, width, height + recipe.substrate_mean_height};
 }
 
 void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const std::vector<double>& radius) {
@@ -130,7 +131,7 @@ Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
   refuse_what_the_sample_shows(recipe, layer.cell, layer.particles.radius);
 
   const double gap = recipe.packing.minimum_gap + guard;
-  const Slab slab{layer.cell.width_x, gap / 2, layer.cell.height - gap / 2};
+  const Slab slab{layer.cell.width_x, recipe.substrate_crest + gap / 2, layer.cell.height - gap / 2};
   std::vector<double> kept_apart = layer.particles.radius;
   for (double& r : kept_apart) r += gap / 2;
 

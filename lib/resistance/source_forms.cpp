@@ -20,6 +20,19 @@ double bracket(double beta) {
 
 constexpr double virtual_sphere = 100;  // radii of the particle
 
+// What moves along the boundary or turns beside it, by a virtual sphere of radius b that neither moves nor turns:
+// s = n x U + l W, q = W across n, n = -z, l = a + gap/2.
+BoundaryScalars beside(const PairScalars& k, double a, double b, double gap) {
+  const PairOperatorScalars o = operator_scalars(k, a, b);
+  const double l = a + gap / 2;
+  BoundaryScalars w;
+  w.parallel = o.a;
+  w.coupling = -(o.a * l + o.b);
+  w.rolling = o.a * l * l + 2 * o.b * l + o.c;
+  w.twist = 0;
+  return w;
+}
+
 }  // namespace
 
 PairScalars source_pair_scalars(double radius_i, double radius_j, double gap, const LubricationTaper& range) {
@@ -34,16 +47,15 @@ PairScalars source_pair_scalars(double radius_i, double radius_j, double gap, co
 }
 
 BoundaryScalars source_wall_increment(double a, double gap, const LubricationTaper& range) {
-  BoundaryScalars w;
+  BoundaryScalars w = beside(source_pair_scalars(a, virtual_sphere * a, gap, range), a, virtual_sphere * a, gap);
   w.perpendicular = 12 * pi * a * bracket(1 + gap / a);
-  // The virtual sphere neither moves nor turns: s = n x U + l W, q = W across n, n = -z, l = a + gap/2.
-  const PairScalars k = source_pair_scalars(a, virtual_sphere * a, gap, range);
-  const PairOperatorScalars o = operator_scalars(k, a, virtual_sphere * a);
-  const double l = a + gap / 2;
-  w.parallel = o.a;
-  w.coupling = -(o.a * l + o.b);
-  w.rolling = o.a * l * l + 2 * o.b * l + o.c;
-  w.twist = 0;
+  return w;
+}
+
+BoundaryScalars source_corner_increment(double a, double gap, const LubricationTaper& range) {
+  const PairScalars k = source_pair_scalars(a, corner_share * a, gap, range);
+  BoundaryScalars w = beside(k, a, corner_share * a, gap);
+  w.perpendicular = k.squeeze;
   return w;
 }
 

@@ -15,6 +15,10 @@ PairScalars source_pair_scalars(double radius_i, double radius_j, double gap, co
 // (section 3.2.3). Differs from [sand2010] (12): the bracket is negative, the force printed would propel; taken as resistance.
 BoundaryScalars source_wall_increment(double radius, double gap, const LubricationTaper&);
 
+// A corner: a virtual sphere of a tenth of the particle's radius that touches the boundary (section 3.2.3).
+inline constexpr double corner_share = 0.1;
+BoundaryScalars source_corner_increment(double radius, double gap, const LubricationTaper&);
+
 // (13), a quarter of (12); nothing lateral.
 BoundaryScalars source_free_surface_increment(double radius, double gap);
 

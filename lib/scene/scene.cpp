@@ -102,6 +102,13 @@ void check_integrator(config::Node& root, const Scene& scene) {
   root.block("stepping").error("integrator", "does not have the statistics of brownian.model: fluctuation_dissipation; write auto, linearly_implicit or explicit_euler");
 }
 
+// Packing puts particles above the crests, liquid below; noise with the whole resistance knows the plane alone.
+void check_roughness(config::Node& root, const Scene& scene) {
+  if (!scene.substrate || !scene.substrate->roughness) return;
+  if (scene.brownian && scene.brownian->model == forces::BrownianParameters::Model::FluctuationDissipation)
+    root.block("brownian").error("model", "fluctuation_dissipation needs a plane substrate; write k_brown, or leave out substrate.roughness");
+}
+
 }  // namespace
 
 dewatering::Coating coating_of(const Scene& scene) {
@@ -138,6 +145,7 @@ Scene read_scene(config::Document& document, const std::string& stage_name) {
   if (!document.has_errors()) check_final_solids(root, scene);
   check_surface(root, scene, stage_name);
   check_integrator(root, scene);
+  check_roughness(root, scene);
   document.check();
   return scene;
 }

@@ -8,7 +8,7 @@ const std::vector<Stage>& stages() {
   static const std::vector<Stage> table = {
       {"scene", {}, {}},  // all of them
       {"interactions", {}, {"particles", "liquid", "hydrodynamics", "colloidal", "substrate", "free_surface"}},
-      {"pack", {"layer", "particles"}, {"seed", "layer", "particles", "packing", "liquid"}},
+      {"pack", {"layer", "particles"}, {"seed", "layer", "particles", "packing", "liquid", "substrate"}},
       {"kbrown", {"particles", "brownian"}, {"seed", "particles", "liquid", "brownian"}},
       {"dewater", {"layer", "particles", "dewatering"}, {"layer", "particles", "liquid", "dewatering"}},
       {"consolidate",

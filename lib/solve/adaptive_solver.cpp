@@ -35,6 +35,9 @@ std::vector<std::int64_t> pack(const PairSystem& system) {
   std::vector<std::int64_t> out{system.rotation ? 1 : 0};
   put(out, system.held);
   put(out, system.particle);
+  std::vector<OwnBlock> own;
+  for (const auto& chunk : system.own) own.insert(own.end(), chunk.begin(), chunk.end());
+  put(out, own);
   for (const auto& chunk : system.full) put(out, std::vector<FullPair>(chunk.begin(), chunk.end()));
   for (const auto& chunk : system.squeeze) put(out, std::vector<SqueezePair>(chunk.begin(), chunk.end()));
   return out;
@@ -48,6 +51,13 @@ PairSystem unpack(const std::vector<std::int64_t>& in, const PairTopology& topol
   system.squeeze.resize(topology.chunks().count());
   std::size_t at = take(in, 1, system.held);
   at = take(in, at, system.particle);
+  std::vector<OwnBlock> own;
+  at = take(in, at, own);
+  if (!own.empty()) system.own.resize(topology.chunks().count());
+  for (std::size_t q = 0, c = 0; q < own.size(); ++q) {
+    while (own[q].particle >= topology.chunks().begin[c + 1]) ++c;
+    system.own[c].push_back(own[q]);
+  }
   for (auto& chunk : system.full) {
     std::vector<FullPair> pairs;
     at = take(in, at, pairs);

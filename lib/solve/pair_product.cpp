@@ -97,6 +97,17 @@ PIGMENT_INLINE void add_squeeze_block(const SqueezeBlock& block, const double* x
 }
 
 template <int D>
+PIGMENT_INLINE void add_own_block(const OwnBlock& block, const double* x, double* y) {
+  const double* u = x + static_cast<std::size_t>(block.particle) * stride<D>;
+  double* f = y + static_cast<std::size_t>(block.particle) * stride<D>;
+  for (int r = 0; r < D; ++r) {
+    double sum = 0;
+    for (int c = 0; c < D; ++c) sum += block.entry[c <= r ? r * (r + 1) / 2 + c : c * (c + 1) / 2 + r] * u[place<D>(c)];
+    f[place<D>(r)] += sum;
+  }
+}
+
+template <int D>
 PIGMENT_INLINE void add_chunk(const PairSystem& system, int chunk, const double* x, double* y) {
   constexpr int S = stride<D>;
   const PairTopology& topology = *system.topology;
@@ -119,6 +130,8 @@ PIGMENT_INLINE void add_chunk(const PairSystem& system, int chunk, const double*
       f[7] = 0;
     }
   }
+  if (!system.own.empty())
+    for (const OwnBlock& block : system.own[chunk]) add_own_block<D>(block, x, y);
   const std::size_t halo = topology.first_slot();
   for (std::size_t h = (halo + topology.halo_begin(chunk)) * S; h < (halo + topology.halo_begin(chunk + 1)) * S; ++h) y[h] = 0;
   for (const FullBlock& block : system.full[chunk].blocks()) add_full_block<D>(block, x, y);

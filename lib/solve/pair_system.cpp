@@ -116,6 +116,9 @@ std::vector<double> blocks(const PairSystem& system) {
           for (int r = d; r < D; ++r) block[k * B + at(r, d)] = column[r];
         }
       }
+      if (!system.own.empty())
+        for (const OwnBlock& own : system.own[c])
+          for (int q = 0; q < B; ++q) block[static_cast<std::size_t>(own.particle) * B + q] += own.entry[q];
       for (const SqueezePair& p : system.squeeze[c])
         for (int r = 0; r < 3; ++r)
           for (int q = 0; q <= r; ++q) {

@@ -22,6 +22,12 @@ namespace pigment::solve {
 struct ParticleTerm {
   double across = 0, along = 0, coupling = 0, spin_across = 0, spin_along = 0;
 };
+// What a particle's contacts with a tilted wall add to its own rows: any symmetric block, its lower triangle row by row (the first
+// D (D + 1)/2 entries). Only particles that have such contacts have one.
+struct OwnBlock {
+  std::int64_t particle = 0;
+  double entry[21] = {};
+};
 // Which pairs there are and who owns them; made once a neighbour list.
 class PairTopology {
  public:
@@ -54,6 +60,7 @@ struct PairSystem {
   // One array a chunk, so that chunks fill and read theirs independently.
   std::vector<FullPairs> full;
   std::vector<SqueezePairs> squeeze;
+  std::vector<std::vector<OwnBlock>> own;  // one array a chunk, its particles rising; empty: none anywhere
   MeanFlow mean_flow;                   // empty: none
   std::vector<double> right_hand_side;  // D a particle
   // Particles whose velocity along z is given (held by the free surface), not solved for: 1 a particle, empty: none; and the

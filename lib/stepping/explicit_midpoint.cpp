@@ -41,6 +41,11 @@ class ExplicitMidpoint final : public Integrator {
         a.last.check.worst_pair = p;
         a.last.check.smallest_gap = end[p];
       }
+    for (std::size_t k = 0; k < a.position.size(); ++k)
+      if (context.too_near_substrate(k, a.position[k], state.position[k])) {
+        a.last.good = false;
+        a.last.check.crossed = true;
+      }
     return a;
   }
   bool is_explicit() const override { return true; }

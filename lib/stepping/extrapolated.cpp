@@ -73,6 +73,8 @@ class Extrapolated final : public Integrator {
       a.position[k].z() = z;
       a.velocity[k].z() = (z - state.position[k].z()) / dt;
     }
+    for (std::size_t k = 0; k < halves.size(); ++k)
+      if (context.too_near_substrate(k, a.position[k], halves[k])) keep_halves(k);
     // Moving one back can bring it near a neighbour that went on: until none is, or all are back.
     for (bool settled = false; !settled;) {
       settled = true;

@@ -67,6 +67,8 @@ class StepContext {
   // the gap that safe_z leaves to the substrate.
   static constexpr double nearest_share = 0.2;
   double height_within(std::size_t particle, double z, double safe_z, double surface) const;
+  // Whether a particle that `safe` leaves outside a rough substrate is nearer to it at `position` than a fifth of that gap.
+  bool too_near_substrate(std::size_t particle, const Vec3& position, const Vec3& safe) const;
   // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
   // gap + Debye length.
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;

@@ -22,6 +22,22 @@ struct Example {
   std::vector<Vector3d> position;
 };
 
+// A random positive definite block, its lower triangle row by row.
+OwnBlock own_block(int k, int D, unsigned seed) {
+  std::srand(seed);
+  const MatrixXd root = MatrixXd::Random(D, D), full = root * root.transpose();
+  OwnBlock block{k, {}};
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c <= r; ++c) block.entry[r * (r + 1) / 2 + c] = full(r, c);
+  return block;
+}
+MatrixXd full_matrix(const OwnBlock& block, int D) {
+  MatrixXd m(D, D);
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c <= r; ++c) m(r, c) = m(c, r) = block.entry[r * (r + 1) / 2 + c];
+  return m;
+}
+
 void make(Example& e, int n, bool rotation, unsigned seed, double drag) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -40,6 +56,10 @@ void make(Example& e, int n, bool rotation, unsigned seed, double drag) {
   e.system.particle.assign(n, {drag, 1.2 * drag, 0.3 * drag, 0.9 * drag, 0.8 * drag});
   e.system.full.resize(e.topology.chunks().count());
   e.system.squeeze.resize(e.topology.chunks().count());
+  e.system.own.resize(e.topology.chunks().count());
+  for (int c = 0; c < e.topology.chunks().count(); ++c)
+    for (int k = e.topology.chunks().begin[c]; k < e.topology.chunks().begin[c + 1]; ++k)
+      if (k % 3 == 1) e.system.own[c].push_back(own_block(k, rotation ? 6 : 3, seed + k));
   for (int c = 0; c < e.topology.chunks().count(); ++c)
     for (std::size_t p = e.topology.pair_begin(c); p < e.topology.pair_begin(c + 1); ++p) {
       const Vector3d d = e.position[pj[p]] - e.position[pi[p]], n3 = d.normalized();
@@ -84,10 +104,12 @@ MatrixXd pair_matrix(const FullPair& p) {
 
 }  // namespace
 
-TEST(PairSystem, EqualsTheDissipationOfItsPairs) {
+TEST(PairSystem, EqualsTheDissipationOfItsPairsAndTheParticlesOwnBlocks) {
   Example e;
   make(e, 12, true, 3, 0);
   MatrixXd expected = MatrixXd::Zero(72, 72);
+  for (const auto& chunk : e.system.own)
+    for (const OwnBlock& block : chunk) expected.block(block.particle * 6, block.particle * 6, 6, 6) += full_matrix(block, 6);
   for (const auto& chunk : e.system.full)
     for (const FullPair& p : chunk) {
       const MatrixXd m = pair_matrix(p);
@@ -118,6 +140,7 @@ TEST(PairSystem, IsSymmetricPositiveDefiniteAndFreeOfRigidMotion) {
   Example e;
   const int n = 60;
   make(e, n, true, 6, 0);
+  e.system.own.clear();  // they resist rigid motion
   const Vector3d U(0.3, -1, 2), W(1, 0.2, -0.7);
   std::vector<double> x(n * 6), y;
   for (int k = 0; k < n; ++k) {
