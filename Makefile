@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench bench-peers speed hindered-drag accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
+.PHONY: all build test bench bench-peers speed hindered-drag brownian accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
 
 all: study-first
 	@echo "The report of the first study: $(BUILD)/studies/first/report.html"
@@ -30,6 +30,7 @@ help:
 	@echo 'make cost            write docs/cost.md, what their runs took'
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make hindered-drag   measure what hindered drag changes in a draining layer, write docs/hindered-drag.md'
+	@echo 'make brownian        errors of Brownian motion against the step (study-brownian), write docs/brownian.md'
 	@echo 'make accuracy        measure errors and cost of the resistance models, write docs/accuracy.md'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
 	@echo 'make deb             a Debian package of the same, in $(BUILD)'
@@ -71,6 +72,10 @@ speed: study-accuracy
 # What hindered drag changes in a draining layer, as docs/hindered-drag.md.
 hindered-drag: build
 	workflows/replace_if_changed.sh docs/hindered-drag.md workflows/hindered-drag/measure.sh '$(abspath $(BUILD))/bin' '$(BUILD)/hindered-drag'
+
+# Errors of Brownian motion against the step, as docs/brownian.md.
+brownian: study-brownian
+	workflows/replace_if_changed.sh docs/brownian.md /usr/bin/python3 workflows/brownian/page.py '$(BUILD)/studies/brownian'
 
 # Errors of the resistance models (study-hydrodynamics) and what a pair costs, as docs/accuracy.md. Nothing else should run beside it.
 accuracy: study-hydrodynamics

@@ -24,8 +24,11 @@ namespace {
 
 // A guess may fall by this factor in one pass, so that a gap that came out negative is approached from above.
 constexpr double largest_fall = 0.2;
-// A pass is the last when every gap came out this near its guess.
-constexpr double near_enough = 0.1;
+// A pass is the last when every gap came out this near its guess, relative, or absolute (um): a fifth of the shortest length over
+// which a force between surfaces changes, that of Born's repulsion.
+constexpr double near_enough = 0.1, near_enough_at_contact = 1e-4;
+// A force that does less work than this over the gap, in kT, may be taken at any guess.
+constexpr double negligible_work = 1e-3;
 
 struct MeanForce {
   double force, stiffness;  // at the guess; stiffness = -d force/d guess where that is positive
@@ -39,7 +42,7 @@ MeanForce mean_force(const forces::PairTerm& begin, const forces::PairTerm& end,
   return {force, std::max(0.0, (force - end.force) / change)};
 }
 
-double next_guess(double gap, double guess, double begin) { return begin > 0 ? std::max(gap, largest_fall * guess) : gap; }
+double next_guess(double gap, double guess, bool kept_open) { return kept_open ? std::max(gap, largest_fall * guess) : gap; }
 
 }  // namespace
 
@@ -115,11 +118,15 @@ StepAssembly::SubstrateState StepAssembly::path_substrate_state(int k) const {
 
 void StepAssembly::follow_path(int chunk, const std::vector<double>& u, GapCheck& check) {
   const std::size_t D = interactions_.rotation() ? 6 : 3;
+  // Lubrication keeps an open gap open; without it spheres may come to overlap, and their forces part them.
+  const bool lubrication = interactions_.lubrication();
+  const double least_work = negligible_work * liquid_.thermal_energy();
   if (passes_ == 0) check.refine = true;
   const auto judge = [&](double gap, double guess, double begin) {
-    if (begin > 0 && gap <= 0) check.crossed = true;
-    const bool off = path_force_ ? std::abs(gap - guess) > near_enough * std::abs(guess) : begin > 0 && gap <= 0;
-    if (off) check.refine = true;
+    const bool crossed = begin > 0 && gap <= 0;
+    if (crossed) check.crossed = true;
+    const double allowed = lubrication ? near_enough * std::abs(guess) : std::max(near_enough * std::abs(guess), near_enough_at_contact);
+    if (path_force_ ? std::abs(gap - guess) > allowed : crossed && lubrication) check.refine = true;
   };
   for (std::size_t p = topology_.pair_begin(chunk); p < topology_.pair_begin(chunk + 1); ++p) {
     const auto [i, j] = pairs_[p];
@@ -131,12 +138,13 @@ void StepAssembly::follow_path(int chunk, const std::vector<double>& u, GapCheck
       check.worst_pair = p;
     }
     double& guess = geometry_[p].gap;
-    if (scalars_[p].squeeze > 0 || term_begin_[p].force != 0) judge(gap, guess, gap_begin_[p]);
-    guess = next_guess(gap, guess, gap_begin_[p]);
+    const double work = std::abs(force_[chunk][p - topology_.pair_begin(chunk)] * guess);  // of the mean force to the guess
+    if (scalars_[p].squeeze > 0 || gap <= 0 || work > least_work) judge(gap, guess, gap_begin_[p]);
+    guess = next_guess(gap, guess, lubrication && gap_begin_[p] > 0);
     if (!path_resistance_) continue;
     normal_[p] = (separation_[p] + d).normalized();
     resistance_gap_[p] = 0.5 * (gap_begin_[p] + guess);
-    if (interactions_.lubrication())
+    if (lubrication)
       scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], resistance_gap_[p]);
   }
   for (int k = topology_.chunks().begin[chunk]; k < topology_.chunks().begin[chunk + 1]; ++k) {
@@ -145,9 +153,9 @@ void StepAssembly::follow_path(int chunk, const std::vector<double>& u, GapCheck
     double end = z - a;
     if (interactions_.substrate) {
       double& guess = substrate_geometry_[k].gap;
-      if (interactions_.lubrication()) {
+      if (lubrication) {
         judge(end, guess, begin);
-        end = guess = next_guess(end, guess, begin);
+        end = guess = next_guess(end, guess, begin > 0);
       } else {
         if ((end < 0) != (guess < 0)) check.refine = true;
         guess = end;

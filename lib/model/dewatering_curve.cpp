@@ -69,6 +69,14 @@ double DewateringCurve::mean_evaporation_flux(double t0, double t1) const {
   return mean_flux(time, evaporation_flux, evaporated, t0, t1);
 }
 
+double DewateringCurve::steady_from() const {
+  if (time.empty()) return 0;
+  std::size_t k = time.size() - 1;
+  const auto like_last = [&](const std::vector<double>& v, std::size_t i) { return v.empty() || v[i] == v.back(); };
+  while (k > 0 && like_last(absorption_flux, k - 1) && like_last(evaporation_flux, k - 1) && like_last(temperature, k - 1)) --k;
+  return time[k];
+}
+
 double DewateringCurve::temperature_at(double t, double fallback) const {
   return temperature.empty() ? fallback : value_at(time, temperature, t);
 }

@@ -20,6 +20,8 @@ struct DewateringCurve {
   // Mean fluxes over [t0, t1], um/ms, from differences of the cumulative curves.
   double mean_absorption_flux(double t0, double t1) const;
   double mean_evaporation_flux(double t0, double t1) const;
+  // Time from which on fluxes and temperature are those at the end, ms; 0 for an empty curve.
+  double steady_from() const;
   double temperature_at(double t, double fallback) const;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/layer_measures.h"
+#include "stepping/stationary.h"
 
 namespace pigment::stepping {
 
@@ -111,6 +112,9 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
   Stepper stepper(problem, state);
   const bool surface = problem.interactions.free_surface.has_value();
   const auto window = static_cast<std::size_t>(std::max(1.0, std::ceil(problem.stepping.immobile_window / settings.output_every - 1e-9)));
+  const auto drift_window = static_cast<std::size_t>(std::max(5.0, std::ceil(problem.stepping.stationary_window / settings.output_every - 1e-9)));
+  const bool until_stationary = problem.stepping.stop_when == SteppingParameters::StopWhen::Stationary;
+  const double steady_from = problem.dewatering.steady_from();
   const bool lags = problem.interactions.pressure_limited();
   const auto store_frame = [&] {
     const double drained = stepper.height_at(state.time), height = lags ? state.surface_height : drained;
@@ -122,6 +126,10 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
       if (state.redistribution.size() > window) state.redistribution.pop_front();
     }
     const std::vector<double> observables = observe(problem, state, height, drained);
+    if (until_stationary && state.time >= steady_from) {
+      state.mass_centre.push_back(observables[static_cast<int>(Observable::MassCentre)]);
+      if (state.mass_centre.size() > 2 * drift_window) state.mass_centre.pop_front();
+    }
     ++state.frame;
     callbacks.on_frame(state, height, observables);
     state.frame_position = state.position;
@@ -154,6 +162,7 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
     }
     if (state.time < next_frame) continue;
     const std::vector<double> observables = store_frame();
+    if (is_stationary(state.mass_centre, drift_window, problem.stepping.stationary_tolerance)) return "stationary";
     if (!surface) continue;
     if (observables[static_cast<int>(Observable::ProtrudingFraction)] > problem.stepping.protruding_limit)
       return "first_critical_concentration";

@@ -34,7 +34,7 @@ struct RunCallbacks {
   std::function<void(double fraction, const std::string& detail)> on_progress;
 };
 
-// "until", "immobile", "first_critical_concentration", or "interrupted" where on_step asked to stop.
+// "until", "immobile", "stationary", "first_critical_concentration", or "interrupted" where on_step asked to stop.
 // A state with frame > 0 goes on where it was. Throws NumericsError where a step cannot be taken.
 std::string consolidate(const Problem&, const RunSettings&, RunState&, const RunCallbacks&);
 

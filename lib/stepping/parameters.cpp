@@ -21,13 +21,17 @@ SteppingParameters read_stepping(config::Node node) {
     p.until = node.quantity("until", Dimension::Time, config::positive());
   else
     node.accept_word("until", "auto");  // the end of the dewatering curve
-  p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"until", P::StopWhen::Until}}, "immobile");
+  p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"stationary", P::StopWhen::Stationary}, {"until", P::StopWhen::Until}}, "immobile");
   if (node.has("solver_tolerance") && !node.is_word("solver_tolerance", "auto"))
     p.solver_tolerance = node.number("solver_tolerance", config::strictly_between(0, 0.1));
   else
     node.accept_word("solver_tolerance", "auto");
   p.immobile_rate = node.number("immobile_rate", 1e-2, config::strictly_between(0, 1));
   p.immobile_window = node.quantity("immobile_window", Dimension::Time, "50 ms", config::positive());
+  if (p.stop_when == P::StopWhen::Stationary) {
+    p.stationary_tolerance = node.number("stationary_tolerance", 0.02, config::strictly_between(0, 1));
+    p.stationary_window = node.quantity("stationary_window", Dimension::Time, "1 s", config::positive());
+  }
   p.protruding_limit = node.number("protruding_limit", 1e-2, config::strictly_between(0, 1));
   return p;
 }

@@ -12,11 +12,13 @@ struct SteppingParameters {
   double tolerance = 1e-2;           // error of a gap in one step, in units of gap + Debye length (see step_control.h)
   std::optional<double> time_step;   // ms; given: fixed steps
   std::optional<double> until;       // ms; absent: the end of the dewatering curve
-  enum class StopWhen { Immobile, Until };
+  enum class StopWhen { Immobile, Stationary, Until };
   StopWhen stop_when = StopWhen::Until;
   std::optional<double> solver_tolerance;  // relative residual of each solve; absent: 1e-4, with Brownian motion 1e-3
   double immobile_rate = 1e-2;       // immobile: mass displacement between heights over the window is below this share of |dH|
   double immobile_window = 50;       // ms; in whole output frames, at least one (model/redistribution.h)
+  double stationary_tolerance = 0.02; // stationary: the mass centre drifts by less than this share of its height from window to window
+  double stationary_window = 1000;    // ms; in whole output frames, at least five (stepping/stationary.h)
   double protruding_limit = 1e-2;    // first critical concentration: more than this share of the solids is above the surface
 };
 SteppingParameters read_stepping(config::Node);

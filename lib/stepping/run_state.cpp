@@ -34,6 +34,7 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
           {"list_reference", flat(list_reference)},
           {"frame_position", flat(frame_position)},
           {"redistribution", redistributions},
+          {"mass_centre", {mass_centre.begin(), mass_centre.end()}},
           {"interval", interval}};
 }
 
@@ -66,6 +67,8 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
     const auto first = redistributions.begin() + static_cast<std::ptrdiff_t>(k);
     s.redistribution.push_back({{first + 1, first + 1 + redistribution_slices}, *first});
   }
+  const std::vector<double>& centres = a.at("mass_centre");
+  s.mass_centre.assign(centres.begin(), centres.end());
   s.interval = a.at("interval");
   return s;
 }

@@ -31,6 +31,7 @@ struct RunState {
   double frame_height = 0;          // H then
   std::vector<std::int64_t> solver_factor;    // matrix of the factor that the solver keeps (solve/adaptive_solver.h)
   std::deque<Redistribution> redistribution;  // of the last frames, as many as the immobility window holds
+  std::deque<double> mass_centre;   // at the last frames under a steady flow, as many as two windows of stationarity hold
   std::vector<double> interval;     // sums since the last frame (stepping/consolidate.cpp)
 
   std::map<std::string, std::vector<double>> arrays() const;

@@ -50,6 +50,7 @@ RunState full_state() {
     part.fall = awkward(r + 3);
     s.redistribution.push_back(part);
   }
+  s.mass_centre = {1.5, 1.0 / 3};
   s.interval = {1, awkward(1), awkward(2)};
   return s;
 }
@@ -67,7 +68,7 @@ bool same(const Redistribution& a, const Redistribution& b) { return same(a.resi
 void expect_same(const RunState& a, const RunState& b) {
   const auto& [step, frame, time, preferred_step, last_step, position, velocity, angular_velocity, previous_velocity,
                previous_angular_velocity, surface_height, surface_velocity, protrusion, list_reference, list_temperature, frame_position, frame_height,
-               solver_factor, redistribution, interval] = a;
+               solver_factor, redistribution, mass_centre, interval] = a;
   EXPECT_TRUE(same(step, b.step) && same(frame, b.frame));
   EXPECT_TRUE(same(time, b.time) && same(preferred_step, b.preferred_step) && same(last_step, b.last_step));
   EXPECT_TRUE(same(position, b.position));
@@ -82,6 +83,7 @@ void expect_same(const RunState& a, const RunState& b) {
   EXPECT_TRUE(same(solver_factor, b.solver_factor));
   ASSERT_EQ(redistribution.size(), b.redistribution.size());
   for (std::size_t k = 0; k < redistribution.size(); ++k) EXPECT_TRUE(same(redistribution[k], b.redistribution[k]));
+  EXPECT_TRUE(same(mass_centre, b.mass_centre));
   EXPECT_TRUE(same(interval, b.interval));
 }
 

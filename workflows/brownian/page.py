@@ -1,0 +1,43 @@
+"""Prints docs/brownian.md: page.py RESULTS, RESULTS = build/studies/brownian."""
+import pathlib
+import sys
+
+from pairs import NOISES, TREATMENTS, Pairs
+
+pairs = Pairs(pathlib.Path(sys.argv[1]))
+exact = pairs.exact["fd"]
+steps = sorted({step for runs in pairs.runs.values() for step in runs})
+
+
+def table(quantity, index):
+    print("| noise | stiff forces | the step to nothing | " + " | ".join(f"{1e3 * s:.3g} us" for s in steps) + " |")
+    print("|---|---|---|" + "---|" * len(steps))
+    for (noise, treatment), runs in pairs.runs.items():
+        # Half a step ahead, k_brown has a drift of its own, and another limit.
+        limit = "" if treatment == "midpoint" else f"{100 * (pairs.exact[noise][index] / exact[index] - 1):+.1f}"
+        cells = [f"{100 * (getattr(runs[s], quantity) / exact[index] - 1):+.1f} ± {100 * getattr(runs[s], quantity + '_error') / exact[index]:.1f}" if s in runs else "" for s in steps]
+        print(f"| {NOISES[noise]} | {TREATMENTS[treatment]} | {limit} | " + " | ".join(cells) + " |")
+    print()
+
+
+default = pairs.default
+print(f"""# Error of Brownian motion against the step
+
+`make brownian` writes this page from `make study-brownian`, which draws the same (`weak-error`).
+
+200 pairs of spheres of 0.5 um at 25 degC, each in a well of 14 kT: DLVO (25 mV, 5 nm, 1e-21 J) and a weak attraction over 200 nm, with
+exact lubrication. The gap has Boltzmann's distribution, mean {1e9 * exact[0]:.2f} nm and standard deviation {1e9 * exact[1]:.2f} nm by
+integration. The tables hold what each noise and each treatment of the stiff forces has in its place, over the exact value, in per cent, with the standard
+error of the run (24 ms each). "The step to nothing" is the integral of what a scheme samples in the limit (docs/physics.md): what no shorter step mends.
+Explicit steps beyond 2 R/K, K the stiffness of the gap, blow up.
+
+## Mean gap, per cent off
+""")
+table("mean", 0)
+print("## Standard deviation of the gap, per cent off\n")
+table("deviation", 1)
+print(f"""## The rule for the step
+
+Near contact gap, force and noise are made dimensionless by the Debye length l and the time l c/kT, c = 6 pi mu R^2, R the reduced radius; dt kT/(l c) sets
+the error whatever the sizes. The default takes 0.25 of it for the smallest particles: {1e3 * default.step * 1e3:.0f} us here, where the mean gap is {100 * (default.mean / exact[0] - 1):+.1f} ±
+{100 * default.mean_error / exact[0]:.1f} % and its standard deviation {100 * (default.deviation / exact[1] - 1):+.1f} ± {100 * default.deviation_error / exact[1]:.1f} % off. It goes with the Debye length and with the square of the radius.""")
