@@ -77,6 +77,8 @@ void run(app::CommandLine& line) {
   } else if (problem.interactions.brownian && problem.interactions.brownian->model == forces::BrownianParameters::Model::KBrown) {
     note("no --kbrown given: K_Brown by its closed form");
   }
+  if (scene.substrate && scene.substrate->roughness && !scene.substrate->roughness->file.empty())
+    provenance.inputs["heights"] = io::sha256_of_file(scene.substrate->roughness->file);
   const stepping::RunSettings settings = scene::run_settings_of(scene, problem);
 
   std::map<std::string, std::string> inputs = provenance.inputs;
@@ -93,6 +95,7 @@ void run(app::CommandLine& line) {
   }
   Layer fixed = first;
   fixed.particles = problem.particles;
+  fixed.substrate = problem.interactions.height_field;
   io::TrajectoryWriter writer(line.common.output, fixed, packing.species_names(), observables(problem.interactions), provenance,
                               static_cast<std::size_t>(state.frame));
   app::handle_signals();

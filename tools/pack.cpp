@@ -38,8 +38,8 @@ void declare(app::CommandLine& line, Options& options) {
 }
 
 packing::Recipe recipe_of(const scene::Scene& scene) {
-  return {*scene.layer, scene.packing, scene.species, scene.liquid.density, scene.seed, scene.substrate ? scene.substrate->crest() : 0,
-          scene.substrate ? scene.substrate->mean_height() : 0};
+  return {*scene.layer, scene.packing, scene.species, scene.liquid.density, scene.seed,
+          scene.substrate && scene.substrate->roughness ? std::optional(height_map(*scene.substrate->roughness)) : std::nullopt};
 }
 
 // One bar a stage.
@@ -163,6 +163,8 @@ void run(const app::CommandLine& line, const Options& options) {
     if (!s.size.file.empty()) provenance.inputs["size of " + s.name] = io::sha256_of_file(s.size.file);
   }
 
+  if (scene.substrate && scene.substrate->roughness && !scene.substrate->roughness->file.empty())
+    provenance.inputs["heights"] = io::sha256_of_file(scene.substrate->roughness->file);
   const packing::Packing packing = pack(scene, document);
   const Report report{packing::solids_of(packing.layer, scene.liquid.density),
                       packing::smallest_gaps(packing.layer), packing::measure_flatness(packing.layer, 30),

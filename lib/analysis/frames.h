@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "base/vec.h"
 #include "model/cell.h"
+#include "model/height_field.h"
 
 namespace pigment::analysis {
 
@@ -16,6 +18,9 @@ struct Snapshot {
   double time = 0;  // ms
   Cell cell;
   Vec3Array position;
+  std::shared_ptr<const HeightField> substrate = nullptr;  // null: the plane z = 0
+  // Volume over area between the substrate and the plane z, um.
+  double space_below(double z) const { return substrate ? substrate->space_below(z) : z; }
 };
 
 // `read` is called from one thread at a time, with rising numbers below count; positions must be finite.

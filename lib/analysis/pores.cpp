@@ -27,7 +27,7 @@ double Pores::mean_distance() const {
 
 Pores measure_pores(const Snapshot& frame, const std::vector<double>& radius, std::size_t points) {
   const Cell& cell = frame.cell;
-  const double space = cell.area() * cell.height;
+  const double space = cell.area() * frame.space_below(cell.height);
   double solids = 0, area = 0;
   for (std::size_t i = 0; i < radius.size(); ++i) {
     solids += sphere_slice_volume(radius[i], frame.position[i].z(), 0, cell.height);
@@ -44,7 +44,9 @@ Pores measure_pores(const Snapshot& frame, const std::vector<double>& radius, st
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < points; ++k) {
     const auto u = random_uniforms({1, Stream::PorePoints}, k);
-    result.distance[k] = surfaces.distance({u[0] * cell.width_x, u[1] * cell.width_y, u[2] * cell.height});
+    const Vec3 point(u[0] * cell.width_x, u[1] * cell.width_y, u[2] * cell.height);
+    const bool in_substrate = frame.substrate && point.z() < frame.substrate->height(point.x(), point.y());
+    result.distance[k] = in_substrate ? -1 : surfaces.distance(point);
   }
   std::erase_if(result.distance, [](double d) { return d < 0; });
   std::sort(result.distance.begin(), result.distance.end());

@@ -90,7 +90,8 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
   const double area = frame.cell.area(), height = frame.cell.height, liquid_density = solids.liquid_density;
   SolidsProfile p;
   p.time = frame.time;
-  p.thickness = height;
+  const double thickness = frame.space_below(height);
+  p.thickness = thickness;
   p.edges = equal_slices(height, parameters.slices);
 
   Groups all(1, slices), by_size(parameters.size_class_count(), slices), by_species(species_count(solids), slices);
@@ -118,7 +119,7 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
   std::vector<SliceTotal> totals;
   double volume_below = 0, mass_below = 0;
   for (std::size_t s = 0; s < slices; ++s) {
-    const double space = area * (p.edges[s + 1] - p.edges[s]), v = all.volume[0][s], m = all.mass[0][s];
+    const double space = area * (frame.space_below(p.edges[s + 1]) - frame.space_below(p.edges[s])), v = all.volume[0][s], m = all.mass[0][s];
     const Filling slice{v, m, space, liquid_density};
     totals.push_back({space, slice.mass(), v, all.number[0][s]});
     volume_below += v;
@@ -126,16 +127,16 @@ SolidsProfile profile_solids(const Snapshot& frame, const Solids& solids, const 
     p.volume_fraction.push_back(ratio(v, space));
     p.mass_fraction.push_back(ratio(m, slice.mass()));
     p.cumulative_share.push_back(ratio(volume_below, solid_volume));
-    const Filling below{volume_below, mass_below, area * p.edges[s + 1], liquid_density};
+    const Filling below{volume_below, mass_below, area * frame.space_below(p.edges[s + 1]), liquid_density};
     p.cumulative_mass_fraction.push_back(ratio(mass_below, below.mass()));
   }
   p.size_classes = by_size.profiles(totals);
   p.species = by_species.profiles(totals);
 
-  p.mean_volume_fraction = ratio(solid_volume, area * height);
-  p.porosity = 1 - ratio(volume_below, area * height);
+  p.mean_volume_fraction = ratio(solid_volume, area * thickness);
+  p.porosity = 1 - ratio(volume_below, area * thickness);
   p.mean_mass_fraction =
-      ratio(solid_mass, Filling{solid_volume, solid_mass, area * height, liquid_density}.mass());
+      ratio(solid_mass, Filling{solid_volume, solid_mass, area * thickness, liquid_density}.mass());
   p.mass_centre = mass_centre(frame.position, solids.radius, solids.mass);
   p.z95 = height_below_which(0.95, frame.position, solids.radius);
   p.z99 = height_below_which(0.99, frame.position, solids.radius);

@@ -32,7 +32,7 @@ struct SolidsProfile {
       cumulative_mass_fraction;  // slices: mass fraction of everything below the slice's upper edge
   std::vector<GroupProfile> size_classes;
   std::vector<GroupProfile> species;  // empty where there is but one
-  double thickness = 0;             // um, substrate to surface
+  double thickness = 0;             // um, substrate to surface; over its mean height where it is not flat
   double mean_volume_fraction = 0;  // all solids over the layer's volume
   double mean_mass_fraction = 0;    // all solids, liquid: the layer's volume less the solids
   double shrinkage = 0;             // share of the first frame's thickness that is gone

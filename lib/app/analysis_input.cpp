@@ -62,7 +62,7 @@ AnalysisInput open_analysis_input(const CommandLine& line, const AnalysisOptions
     last = k;
     Layer layer = file->layer(k);
     progress->update(static_cast<double>(k + 1) / static_cast<double>(file->frame_count()));
-    return analysis::Snapshot{file->times()[k], layer.cell, std::move(layer.position)};
+    return analysis::Snapshot{file->times()[k], layer.cell, std::move(layer.position), layer.substrate};
   };
   return input;
 }

@@ -1,9 +1,11 @@
 #pragma once
 // What acts in a scene: its hydrodynamics and forces, built once. A term that is not there costs nothing.
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "forces/parameters.h"
+#include "model/height_field.h"
 #include "model/liquid.h"
 #include "neighbours/pair_search.h"
 #include "resistance/parameters.h"
@@ -14,6 +16,7 @@ struct Interactions {
   resistance::HydrodynamicsParameters hydrodynamics;
   std::vector<forces::ColloidalLaw> colloidal;
   std::optional<forces::SubstrateParameters> substrate;
+  std::shared_ptr<const HeightField> height_field;  // of a substrate that is not flat, fitted to the cell; null: the plane z = 0
   std::optional<forces::FreeSurfaceParameters> free_surface;
   std::optional<forces::GravityParameters> gravity;
   std::optional<forces::BrownianParameters> brownian;
@@ -25,6 +28,8 @@ struct Interactions {
   bool pressure_limited() const {
     return free_surface && free_surface->model == forces::FreeSurfaceParameters::Model::PressureLimited;
   }
+  // Volume over area between the substrate and the plane z, um.
+  double space_below(double z) const { return height_field ? height_field->space_below(z) : z; }
   // Rotation is worth solving for only where something couples to it.
   bool rotation() const { return hydrodynamics.rotation && lubrication(); }
 };

@@ -29,8 +29,8 @@ BoundaryScalars scaled(BoundaryScalars w, double factor) {
 
 }  // namespace
 
-RoughSubstrate::RoughSubstrate(const Interactions& interactions, const Cell& cell, std::vector<double> radius, std::vector<double> potential)
-    : interactions_(interactions), field_(*interactions.substrate->roughness, cell), radius_(std::move(radius)), potential_(std::move(potential)),
+RoughSubstrate::RoughSubstrate(const Interactions& interactions, std::vector<double> radius, std::vector<double> potential)
+    : interactions_(interactions), field_(*interactions.height_field), radius_(std::move(radius)), potential_(std::move(potential)),
       contacts_(radius_.size()), far_(radius_.size()) {}
 
 RoughSubstrate::Contact RoughSubstrate::contact_at(int k, const HeightField::Foot& foot) const {
@@ -186,9 +186,7 @@ void RoughSubstrate::refine(int k, const Vec3& end, bool newton, bool& again, bo
 }
 
 double RoughSubstrate::gap(const Vec3& position, double radius) const {
-  double least = infinity;
-  for (const HeightField::Foot& foot : field_.feet(position, radius + reach(radius))) least = std::min(least, foot.distance - radius);
-  return least;
+  return field_.gap(position, radius, reach(radius));
 }
 
 }  // namespace pigment::assembly

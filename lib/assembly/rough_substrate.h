@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "assembly/interactions.h"
-#include "model/cell.h"
 #include "model/height_field.h"
 #include "resistance/boundary_resistance.h"
 #include "solve/pair_system.h"
@@ -21,8 +20,8 @@ namespace pigment::assembly {
 class RoughSubstrate {
  public:
   using Laws = std::vector<std::unique_ptr<forces::PreparedPairLaw>>;
-  // radius, potential: um and mV, engine order, as all arrays and indices here. interactions must outlive this.
-  RoughSubstrate(const Interactions&, const Cell&, std::vector<double> radius, std::vector<double> potential);
+  // radius, potential: um and mV, engine order, as all arrays and indices here. interactions, with its height_field, must outlive this.
+  RoughSubstrate(const Interactions&, std::vector<double> radius, std::vector<double> potential);
 
   // Finds the contacts at the beginning of a step.
   void begin(const std::vector<Vec3>& position, const Laws&);
@@ -55,7 +54,7 @@ class RoughSubstrate {
   double reach(double radius) const { return radius * interactions_.hydrodynamics.taper.squeeze_end; }
 
   const Interactions& interactions_;
-  HeightField field_;
+  const HeightField& field_;
   std::vector<double> radius_, potential_;
   std::vector<std::vector<Contact>> contacts_;
   std::vector<resistance::BoundaryScalars> far_;

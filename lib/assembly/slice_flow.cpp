@@ -17,7 +17,8 @@ constexpr double least_liquid = 0.05;
 
 }  // namespace
 
-SliceFlow::SliceFlow(const std::vector<double>& radius, double area, double height) : radius_(radius), area_(area) {
+SliceFlow::SliceFlow(const std::vector<double>& radius, double area, double height, const HeightField* substrate)
+    : radius_(radius), area_(area), substrate_(substrate) {
   double cubes = 0, squares = 0;
   for (double a : radius) {
     cubes += a * a * a;
@@ -32,6 +33,7 @@ void SliceFlow::place(const std::vector<Vec3>& position, double surface, double 
   const std::size_t n = radius_.size();
   const double thickness = surface > 0 ? surface / slices_ : thickness_;
   absorption_ = absorption;
+  thickness_now_ = thickness;
   // Which part of each particle lies in which slice; slice 0 begins at z = 0.
   struct Part {
     long slice;
@@ -56,13 +58,19 @@ void SliceFlow::place(const std::vector<Vec3>& position, double surface, double 
     begin.push_back(parts.size());
   }
   const auto slices = static_cast<std::size_t>(highest - lowest + 1);
+  const auto space_below = [&](double z) { return substrate_ && z > 0 ? substrate_->space_below(z) : z; };
+  space_.resize(slices);
+  for (std::size_t s = 0; s < slices; ++s) {
+    const double bottom = static_cast<double>(static_cast<long>(s) + lowest) * thickness;
+    space_[s] = area_ * (substrate_ ? space_below(bottom + thickness) - space_below(bottom) : thickness);
+  }
   // Solids, and sum of a^3 over sum of a^2, each particle by its share of volume.
   std::vector<double> squares(slices, 0.0), cubes(slices, 0.0);
   solids_.assign(slices, 0.0);
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t at = begin[k]; at < begin[k + 1]; ++at) {
       const auto s = static_cast<std::size_t>(parts[at].slice - lowest);
-      solids_[s] += parts[at].volume / (area_ * thickness);
+      solids_[s] += parts[at].volume / space_[s];
       cubes[s] += parts[at].volume;
       squares[s] += parts[at].volume / radius_[k];
     }
@@ -81,7 +89,7 @@ void SliceFlow::place(const std::vector<Vec3>& position, double surface, double 
       const auto s = static_cast<std::size_t>(parts[at].slice - lowest);
       const double weight = parts[at].volume / inside, ratio = radius_[k] * squares[s] / cubes[s];
       const double b = weight * stokes * resistance::hindered_drag_factor(1 - liquid_[s], ratio);
-      term_.share[at] = {static_cast<std::int32_t>(s), b, parts[at].volume / (area_ * thickness * liquid_[s])};
+      term_.share[at] = {static_cast<std::int32_t>(s), b, parts[at].volume / (space_[s] * liquid_[s])};
       term_.slice_drag[s] += b;
       drag_[k] += b;
     }
@@ -113,7 +121,7 @@ std::vector<SliceState> SliceFlow::states(const std::vector<double>& velocity, s
     state.liquid_velocity = (-absorption_ - state.solids_flux) / liquid_[s];
     // Drag, and the pressure term of what it displaces: what the liquid loses to the particles.
     const double drag = term_.slice_drag[s] * state.liquid_velocity - drag_times_velocity[s];
-    state.pressure_drop = drag * (1 + share_sum[s]) / area_;
+    state.pressure_drop = drag * (1 + share_sum[s]) / (substrate_ ? space_[s] / thickness_now_ : area_);
   }
   return result;
 }

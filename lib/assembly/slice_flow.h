@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "model/height_field.h"
 #include "solve/mean_flow.h"
 
 namespace pigment::assembly {
@@ -25,7 +26,8 @@ struct SliceState {
 class SliceFlow {
  public:
   // radius: engine order. Slices about as thick as the surface-mean diameter sum d^3/sum d^2, a whole number in `height`.
-  SliceFlow(const std::vector<double>& radius, double area, double height);
+  // Over a substrate that is not flat (null: flat) a slice is what lies above the surface, and q what each part of that area takes.
+  SliceFlow(const std::vector<double>& radius, double area, double height, const HeightField* substrate = nullptr);
 
   // Slices of the layer at the beginning of a step. With a surface they are equal parts of 0..surface and shrink with it; what
   // stands out of it takes no part. Without (surface 0) they keep their thickness and go on above and below as far as
@@ -42,8 +44,11 @@ class SliceFlow {
  private:
   const std::vector<double>& radius_;
   double area_, thickness_, absorption_ = 0;
+  const HeightField* substrate_;
+  double thickness_now_ = 0;  // of the slices placed last, um
   int slices_;
   double sauter_radius_;
+  std::vector<double> space_;            // volume of each slice, um^3
   std::vector<double> solids_, liquid_;  // phi and 1 - phi of each slice
   std::vector<double> drag_, force_;
   solve::MeanFlow term_;

@@ -47,8 +47,8 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
     const auto [i, j] = pairs_[p];
     geometry_[p] = {0, radius_[i], radius_[j], potential[i], potential[j]};
   }
-  if (interactions.substrate && interactions.substrate->roughness) {
-    rough_.emplace(interactions, cell, radius_, potential);
+  if (interactions.substrate && interactions.height_field) {
+    rough_.emplace(interactions, radius_, potential);
   } else if (interactions.substrate) {
     substrate_geometry_.resize(n);
     for (std::size_t k = 0; k < n; ++k)
@@ -56,7 +56,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
                                 interactions.substrate->surface_potential.value_or(potential[k])};
   }
   if (interactions.pressure_limited()) entry_pressure_ = forces::entry_pressure(*interactions.free_surface, radius_);
-  if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height);
+  if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height, interactions.height_field.get());
   normal_.resize(pairs_.size());
   gap_begin_.resize(pairs_.size());
   resistance_gap_.resize(pairs_.size());

@@ -7,7 +7,7 @@
 
 #include "config/node.h"
 #include "forces/pair_law.h"
-#include "model/height_field.h"
+#include "model/height_map.h"
 
 namespace pigment::forces {
 
@@ -24,8 +24,6 @@ struct SubstrateParameters {
   Suction suction = Suction::Impermeable;   // what its resistance acts on: U, or U + q e_z
   std::optional<double> surface_potential;  // mV; absent: that of the particle in front of it
   std::optional<Roughness> roughness;       // absent: the plane z = 0
-  double crest() const { return roughness ? roughness->crest() : 0; }              // um, its highest and
-  double mean_height() const { return roughness ? roughness->mean_height() : 0; }  // its mean height
 };
 SubstrateParameters read_substrate(config::Node);
 

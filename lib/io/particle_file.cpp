@@ -40,12 +40,14 @@ struct ParticleFile::Data {
   Element position, edges;
   bool edges_are_matrix = false, edges_have_frames = false;
   std::optional<Element> velocity, angular_velocity;
+  std::shared_ptr<const HeightField> substrate;
 
   void find_positions();
   void find_edges();
   void find_schedule();
   std::optional<Element> find_velocity(const std::string& name);
   void read_fixed();
+  void read_substrate();
   Cell cell(std::size_t frame) const;
   Vec3Array vectors(const Element&, Dimension, std::size_t frame) const;
 };
@@ -219,12 +221,28 @@ void ParticleFile::Data::read_fixed() {
     species_names = *names;
 }
 
+void ParticleFile::Data::read_substrate() {
+  const std::string height = "/substrate/height", period = "/substrate/period";
+  if (!file.has(height)) return;
+  if (!file.is_dataset(height) || file.shape(height).size() != 2 || file.shape(height)[0] * file.shape(height)[1] == 0)
+    file.fail(height, "expected a dataset [points along x, points along y]");
+  if (!file.is_dataset(period) || file.shape(period) != h5::Extent{2}) file.fail(period, "expected two lengths, the period along x and along y");
+  HeightMap map{file.shape(height)[0], file.shape(height)[1], 0, 0, read_quantity(file, height, Dimension::Length)};
+  const std::vector<double> periods = read_quantity(file, period, Dimension::Length);
+  for (const double p : periods)
+    if (!(p > 0)) file.fail(period, fmt::format("holds {} m, expected positive lengths", to_si(Dimension::Length, p)));
+  map.period_x = periods[0];
+  map.period_y = periods[1];
+  substrate = std::make_shared<const HeightField>(std::move(map), cell(0));
+}
+
 ParticleFile::ParticleFile(const std::filesystem::path& name) : data_(std::make_unique<Data>(name)) {
   Data& d = *data_;
   d.find_positions();
   d.find_edges();
   d.find_schedule();
   d.read_fixed();
+  d.read_substrate();
   d.velocity = d.find_velocity("velocity");
   d.angular_velocity = d.find_velocity("angular_velocity");
   const Layer first = layer(0);
@@ -274,7 +292,7 @@ Layer ParticleFile::layer(std::size_t index) const {
   if (index >= d.frames)
     throw FileError(fmt::format("{}: has {} frames, frame {} (counted from 0) was asked for", path().string(),
                                 d.frames, index));
-  return {d.cell(index), d.particles, d.vectors(d.position, Dimension::Length, index)};
+  return {d.cell(index), d.particles, d.vectors(d.position, Dimension::Length, index), d.substrate};
 }
 
 std::vector<std::string> ParticleFile::observable_names() const {
@@ -313,6 +331,7 @@ void write_packing(const std::filesystem::path& name, const Layer& layer,
   ParticleContent content;
   content.kind = "packing";
   content.particles = &layer.particles;
+  content.substrate = layer.substrate;
   content.species_names = species_names;
   content.frame_count = 1;
   content.frame = [&](std::size_t, Frame& frame, std::vector<double>&) {

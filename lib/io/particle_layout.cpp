@@ -85,6 +85,11 @@ void write_particle_content(const std::filesystem::path& name, const ParticleCon
     observables.push_back(
         create_element(file, "/observables/" + observable.name, {frames}, observable.dimension));
   write_fixed(file, content);
+  if (content.substrate) {
+    const HeightMap& map = content.substrate->map();
+    write_quantity(file, "/substrate/height", {map.count_x, map.count_y}, map.height, Dimension::Length);
+    write_quantity(file, "/substrate/period", {2}, {map.period_x, map.period_y}, Dimension::Length);
+  }
   write_datasets(file, content.extra);
 
   Frame frame;

@@ -7,6 +7,7 @@
 //   /particles/layer/position          value [frames, N, 3], step [frames], time [frames]
 //   /particles/layer/velocity, angular_velocity   value [frames, N, 3] in 32 bits, step and time likewise
 //   /particles/layer/radius, mass, species, id    [N];  species_names [species]
+//   /substrate/height, period          [points along x, along y], [2]: one period of a substrate that is not flat
 //   /observables/NAME                  value [frames], step and time likewise
 #include <functional>
 
@@ -25,6 +26,7 @@ struct ParticleContent {
   std::size_t frame_count = 0;
   // Gives frame i and its observables; asked for in order.
   std::function<void(std::size_t, Frame&, std::vector<double>&)> frame;
+  std::shared_ptr<const HeightField> substrate = nullptr;  // null: flat, nothing is written
   std::vector<Dataset> extra;
   Provenance provenance;
 };

@@ -40,6 +40,7 @@ std::string owner_of(const Layer& layer, const std::vector<std::string>& species
 struct TrajectoryWriter::Data {
   std::filesystem::path output;
   Particles particles;
+  std::shared_ptr<const HeightField> substrate;
   std::vector<std::string> species_names;
   std::vector<ObservableInfo> observables;
   Provenance provenance;
@@ -54,6 +55,7 @@ void TrajectoryWriter::Data::write(const std::filesystem::path& name,
   content.kind = "trajectory";
   content.attributes = attributes;
   content.particles = &particles;
+  content.substrate = substrate;
   content.species_names = species_names;
   content.velocities = true;
   content.observables = observables;
@@ -72,7 +74,7 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& output, Layer fi
   const std::string owner = owner_of(first, species_names, observables, provenance);
   const std::size_t particles = first.particles.size(), columns = observables.size();
   data_ = std::unique_ptr<Data>(
-      new Data{output, std::move(first.particles), std::move(species_names), std::move(observables),
+      new Data{output, std::move(first.particles), first.substrate, std::move(species_names), std::move(observables),
                std::move(provenance),
                FrameJournal(sibling(output, ".frames.part"), owner, particles, columns, keep_frames)});
 }

@@ -1,33 +1,30 @@
 #pragma once
 // A substrate that is not flat: a height over x and y, periodic with the cell.
-//   z = A (2 + cos(2 pi n_x x/L_x) + cos(2 pi n_y y/L_y))/4,   0 <= z <= A,
-// with whole numbers of periods n = L/wavelength, rounded, at least one: the width of a layer follows from its solids, so the wavelength
-// is met as nearly as the cell allows.
+// The bicubic spline through a map's heights, periodic and twice continuously differentiable [unser1999]. Whole numbers of the map's
+// periods fill the cell, as many as come nearest, at least one: the width of a layer follows from its solids, so the map is stretched
+// a little along x and y. Heights are not.
+#include <cstddef>
 #include <vector>
 
 #include "base/vec.h"
-#include "config/node.h"
 #include "model/cell.h"
+#include "model/height_map.h"
 
 namespace pigment {
 
-struct Roughness {
-  double amplitude = 0;   // um, from the deepest point to the crests
-  double wavelength = 0;  // um, along x and along y
-  double crest() const { return amplitude; }
-  double mean_height() const { return 0.5 * amplitude; }
-};
-// Keys: amplitude, wavelength.
-Roughness read_roughness(config::Node);
-
 class HeightField {
  public:
-  HeightField(const Roughness&, const Cell&);
+  HeightField(HeightMap, const Cell&);
 
-  double crest() const { return amplitude_; }
-  double mean_height() const { return 0.5 * amplitude_; }
-  double height(double x, double y) const;
-  double resolution() const { return step_x_ < step_y_ ? step_x_ : step_y_; }  // feet nearer than this are one, um
+  double height(double x, double y) const;  // um
+  double lowest() const { return lowest_; }  // um, the surface's deepest point,
+  double crest() const { return crest_; }    // its highest
+  double mean_height() const { return mean_; }
+  // Volume over area (um) between the surface and the plane z above it: z - mean_height above the crests, 0 below the deepest point.
+  // Between them a sum over twice as many points along x and y as the map has.
+  double space_below(double z) const;
+  // The map with its periods fitted to the cell: it gives the same field again.
+  const HeightMap& map() const { return map_; }
 
   // A point of the surface whose distance from a given point is least among its neighbours.
   struct Foot {
@@ -36,21 +33,32 @@ class HeightField {
     double distance;   // um; negative where the given point lies inside the substrate
     double curvature;  // 1/um, the larger principal one, positive where the surface is convex
   };
-  // All of them no farther than reach (um), in fixed order. A point inside the substrate has the nearest only.
+  // All of them no farther than reach (um), in fixed order. A point inside the substrate has the nearest only, however
+  // far it is.
   std::vector<Foot> feet(const Vec3& point, double reach) const;
   // The one that foot becomes for a point nearby.
   Foot follow(const Foot&, const Vec3& point) const;
+  // Smallest distance of a sphere from the surface, um, negative where they overlap; infinite beyond reach.
+  double gap(const Vec3& centre, double radius, double reach) const;
+  // Spacing of the samples among which feet are sought, um, along the coarser axis.
+  double resolution() const;
 
  private:
   struct Local {
-    double z, gx, gy, hxx, hyy;  // height, gradient, second derivatives (the mixed one is zero)
+    double z, gx, gy, hxx, hxy, hyy;  // height, gradient, second derivatives
   };
   Local local(double x, double y) const;
   double half_squared_distance(double x, double y, const Vec3& point) const;
   Foot descend(double x, double y, const Vec3& point) const;
+  double extremum(std::size_t at_sample) const;
 
-  double amplitude_ = 0, wave_x_ = 0, wave_y_ = 0;  // um, 1/um, 1/um
-  double step_x_ = 0, step_y_ = 0;                  // of the samples among which feet are sought, um
+  HeightMap map_;
+  std::vector<double> coefficient_;         // of the spline, as map_.height
+  std::size_t samples_x_ = 0, samples_y_ = 0;  // of one period
+  double step_x_ = 0, step_y_ = 0;          // between them, um
+  std::vector<double> sample_;              // heights, [i * samples_y + j]
+  std::vector<double> sorted_, sum_;        // the same, rising; and their sums up to each
+  double lowest_ = 0, crest_ = 0, mean_ = 0;
 };
 
 }  // namespace pigment

@@ -2,11 +2,13 @@
 // What a particle is and never changes during a run: arrays of one length.
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "base/vec.h"
 #include "model/cell.h"
+#include "model/height_field.h"
 
 namespace pigment {
 
@@ -25,6 +27,7 @@ struct Layer {
   Cell cell;
   Particles particles;
   Vec3Array position;  // x and y unwrapped
+  std::shared_ptr<const HeightField> substrate = nullptr;  // null: the plane z = 0
 };
 
 }  // namespace pigment

@@ -64,7 +64,7 @@ Equilibration equilibrate(const Slab& slab, const std::vector<double>& radius, V
         const double contact = radius[i] + radius[j];
         free = cell.minimum_image(centre[j] - place).squaredNorm() >= contact * contact;
       }
-      if (!free) continue;
+      if (!free || slab.floor_overlap(place, radius[i]) > 0) continue;
       centre[i] = place;
       ++m.accepted, ++all_accepted;
     }

@@ -63,7 +63,7 @@ void refuse_impossible(const Recipe& recipe, const LayerTarget& target,
 }
 
 // The box that holds these particles at exactly the solids asked for.
-Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& particles) {
+Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& particles, double mean_height) {
   const double solids = solids_volume(particles.radius);
   double mass = 0;
   for (const double m : particles.mass) mass += m;
@@ -76,10 +76,11 @@ Cell box_for(const Recipe& recipe, const LayerTarget& target, const Particles& p
   const double height = recipe.layer.thickness ? target.thickness : volume * *recipe.layer.coat_weight / mass;
   const double width = std::sqrt(volume / height);
   // The thickness is that of the liquid and the solids over the substrate's mean height.
-  return {width, width, height + recipe.substrate_mean_height};
+  return {width, width, height + mean_height};
 }
 
-void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const std::vector<double>& radius) {
+void refuse_what_the_sample_shows(const Recipe& recipe, const Layer& layer, const std::vector<double>& radius) {
+  const Cell& cell = layer.cell;
   const double gap = recipe.packing.minimum_gap, largest = 2 * radius.front();
   if (cell.width_x < 2 * (largest + gap))
     throw Impossible("layer", "width",
@@ -92,9 +93,15 @@ void refuse_what_the_sample_shows(const Recipe& recipe, const Cell& cell, const 
                      fmt::format("the layer of {:.6g} um is thinner than its largest particle ({:.6g} um) "
                                  "with the minimum gap on either side",
                                  cell.height, largest));
+  const double room = layer.substrate ? layer.substrate->space_below(cell.height) : cell.height;
+  if (layer.substrate && cell.height - layer.substrate->crest() < largest + 2 * gap)
+    throw Impossible("layer", recipe.layer.thickness ? "thickness" : "coat_weight",
+                     fmt::format("a layer of {:.6g} um over the substrate's mean height ends {:.6g} um above its crests, where the largest particle "
+                                 "({:.6g} um) has no room with the minimum gap on either side; take a thicker layer or a lower substrate.roughness",
+                                 room, cell.height - layer.substrate->crest(), largest));
   double filled = 0;
   for (const double a : radius) filled += Particles::sphere_volume(a + gap / 2);
-  filled /= cell.area() * (cell.height - gap);
+  filled /= cell.area() * (room - gap);
   if (filled > densest)
     throw Impossible(
         "packing", "minimum_gap",
@@ -126,12 +133,15 @@ Packing pack_layer(const Recipe& recipe, const OnProgress& on_progress) {
   layer.particles =
       sample_particles(recipe.species, packing.sizes,
                        packing.target.volume_fraction * packing.target.thickness * asked_area, recipe.seed);
-  layer.cell = box_for(recipe, packing.target, layer.particles);
+  double mean_height = 0;
+  if (recipe.substrate) mean_height = HeightField(*recipe.substrate, Cell{1, 1, 1}).mean_height();
+  layer.cell = box_for(recipe, packing.target, layer.particles, mean_height);
+  if (recipe.substrate) layer.substrate = std::make_shared<const HeightField>(*recipe.substrate, layer.cell);
   packing.width_scale = layer.cell.width_x / recipe.layer.width;
-  refuse_what_the_sample_shows(recipe, layer.cell, layer.particles.radius);
+  refuse_what_the_sample_shows(recipe, layer, layer.particles.radius);
 
   const double gap = recipe.packing.minimum_gap + guard;
-  const Slab slab{layer.cell.width_x, recipe.substrate_crest + gap / 2, layer.cell.height - gap / 2};
+  const Slab slab{layer.cell.width_x, gap / 2, layer.cell.height - gap / 2, layer.substrate.get(), gap / 2};
   std::vector<double> kept_apart = layer.particles.radius;
   for (double& r : kept_apart) r += gap / 2;
 

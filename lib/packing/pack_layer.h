@@ -21,8 +21,7 @@ struct Recipe {
   std::vector<Species> species;
   double liquid_density = 1e-3;
   std::uint64_t seed = 1;
-  // Of a substrate that is not the plane z = 0, um: the layer is packed above its crests, its liquid fills the valleys.
-  double substrate_crest = 0, substrate_mean_height = 0;
+  std::optional<HeightMap> substrate = std::nullopt;  // absent: the plane z = 0
 };
 
 struct Packing {

@@ -119,7 +119,7 @@ Insertion insert_largest_first(const Slab& slab, const std::vector<double>& radi
       const auto u = random_uniforms({seed, Stream::PackingPositions}, k, static_cast<std::uint64_t>(t));
       const double room = slab.top - slab.bottom - 2 * r;
       const Vec3 place(u[0] * slab.width, u[1] * slab.width, slab.bottom + r + u[2] * room);
-      double overlap = 0;
+      double overlap = slab.floor_overlap(place, r);
       for (std::size_t c = 0; c <= own_class && overlap < least; ++c)
         overlap = grids[c].overlap(cell, place, r, overlap, least);
       if (overlap < least) least = overlap, best = place;

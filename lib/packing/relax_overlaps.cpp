@@ -111,6 +111,13 @@ class Minimisation {
         force -= (contact - distance) * normal;
         energy += (contact - distance) * (contact - distance);
       }
+      if (slab_.floor)
+        for (const HeightField::Foot& foot : slab_.floor->feet(centre_[i], enlarged_[i] + slab_.floor_gap)) {
+          const double depth = enlarged_[i] + slab_.floor_gap - foot.distance;
+          worst = std::max(worst, radius_[i] + slab_.floor_gap - foot.distance);
+          force += depth * foot.normal;
+          energy += depth * depth;
+        }
       force_[i] = force;
       overlap_[i] = worst;
       energy_[i] = energy;

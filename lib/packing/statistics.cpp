@@ -70,12 +70,23 @@ std::vector<SizeAgreement> compare_sizes(const Layer& layer, const std::vector<S
   return result;
 }
 
+namespace {
+
+double space_below(const Layer& layer, double z) { return layer.substrate ? layer.substrate->space_below(z) : z; }
+double divided(double part, double whole) { return whole > 0 ? part / whole : 0; }
+double gap_to_substrate(const Layer& layer, std::size_t i) {
+  const double a = layer.particles.radius[i];
+  return layer.substrate ? layer.substrate->gap(layer.position[i], a, 2 * a) : layer.position[i].z() - a;
+}
+
+}  // namespace
+
 ProfileFlatness measure_flatness(const Layer& layer, int slices) {
   ProfileFlatness result;
   const double height = layer.cell.height, area = layer.cell.area();
   const auto fraction = [&](const std::vector<double>& edges) {
     std::vector<double> part = slice_volumes(edges, layer.position, layer.particles.radius);
-    for (std::size_t s = 0; s < part.size(); ++s) part[s] /= area * (edges[s + 1] - edges[s]);
+    for (std::size_t s = 0; s < part.size(); ++s) part[s] = divided(part[s], area * (space_below(layer, edges[s + 1]) - space_below(layer, edges[s])));
     return part;
   };
   result.edges = equal_slices(height, slices);
@@ -104,7 +115,7 @@ SmallestGaps smallest_gaps(const Layer& layer) {
   const std::vector<double>& radius = layer.particles.radius;
   SmallestGaps gaps{infinity, infinity, infinity};
   for (std::size_t i = 0; i < radius.size(); ++i) {
-    gaps.substrate = std::min(gaps.substrate, layer.position[i].z() - radius[i]);
+    gaps.substrate = std::min(gaps.substrate, gap_to_substrate(layer, i));
     gaps.surface = std::min(gaps.surface, layer.cell.height - layer.position[i].z() - radius[i]);
   }
   if (radius.size() < 2) return gaps;
@@ -121,7 +132,7 @@ SmallestGaps smallest_gaps(const Layer& layer) {
 Solids solids_of(const Layer& layer, double liquid_density) {
   double mass = 0;
   for (const double m : layer.particles.mass) mass += m;
-  const double volume = solids_volume(layer.particles.radius), box = layer.cell.area() * layer.cell.height;
+  const double volume = solids_volume(layer.particles.radius), box = layer.cell.area() * space_below(layer, layer.cell.height);
   return {volume / box, mass / (mass + liquid_density * (box - volume)), mass / layer.cell.area()};
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -46,6 +47,43 @@ assembly::Interactions interactions_of(const Scene& scene) {
   return in;
 }
 
+namespace {
+
+// The scene's substrate against where the particles stand, and against the surface that they were packed over.
+void check_substrate(const io::ParticleFile& packing, const HeightField* field) {
+  const Layer layer = packing.layer();
+  const auto same_surface = [&] {
+    if (!field || !layer.substrate) return !field && !layer.substrate;
+    const HeightMap &a = field->map(), &b = layer.substrate->map();
+    if (a.count_x != b.count_x || a.count_y != b.count_y) return false;
+    const double rounding = 1e-12 * field->crest();  // of the way through the file's units
+    for (std::size_t k = 0; k < a.height.size(); ++k)
+      if (std::abs(a.height[k] - b.height[k]) > rounding) return false;
+    return true;
+  };
+  if (!same_surface())
+    note(fmt::format("{}: packed over a {} substrate; the scene's{} is taken", packing.path().string(), layer.substrate ? "rough" : "flat",
+                     layer.substrate && field ? ", another one," : ""));
+  if (!field) return;
+  double deepest = 0;
+  std::size_t overlaps = 0, worst = 0;
+  for (std::size_t k = 0; k < layer.position.size(); ++k) {
+    const Vec3& p = layer.position[k];
+    const double height = field->height(p.x(), p.y());
+    if (!(p.z() > height))
+      throw FileError(fmt::format("{}: /particles/layer/position: particle {} (id {}) is centred at z = {:.6g} um, expected above the scene's "
+                                  "substrate, which stands at {:.6g} um there", packing.path().string(), k, layer.particles.id[k], p.z(), height));
+    const double depth = -field->gap(p, layer.particles.radius[k], 0);
+    if (depth > deepest) deepest = depth, worst = k;
+    overlaps += depth > 0;
+  }
+  if (overlaps > 0)
+    warning(fmt::format("{}: {} {} into the substrate, the deepest {:.3g} nm, id {}", packing.path().string(), overlaps,
+                        overlaps == 1 ? "particle reaches" : "particles reach", 1e3 * deepest, layer.particles.id[worst]));
+}
+
+}  // namespace
+
 stepping::Problem problem_of(const Scene& scene, const io::ParticleFile& packing) {
   stepping::Problem problem;
   problem.particles = packing.particles();
@@ -64,6 +102,9 @@ stepping::Problem problem_of(const Scene& scene, const io::ParticleFile& packing
     throw FileError(fmt::format("{}: /particles/layer/box/edges: {:.6g} x {:.6g} um is under two largest diameters ({:.6g} um each): a particle "
                                 "would meet its own periodic image", packing.path().string(), problem.cell.width_x, problem.cell.width_y, 2 * largest));
   problem.interactions = interactions_of(scene);
+  if (scene.substrate && scene.substrate->roughness)
+    problem.interactions.height_field = std::make_shared<const HeightField>(height_map(*scene.substrate->roughness), problem.cell);
+  check_substrate(packing, problem.interactions.height_field.get());
   problem.stepping = scene.stepping;
   problem.seed = scene.seed;
   return problem;

@@ -54,20 +54,29 @@ double smallest_gap(const Problem& problem, const RunState& state) {
   return gap == std::numeric_limits<double>::max() ? problem.cell.width_x : gap;
 }
 
+// Over a substrate that is not flat; the cell's width where no particle is nearer than that.
+double smallest_gap_to_substrate(const Problem& problem, const RunState& state) {
+  double gap = problem.cell.width_x;
+  for (double reach = 0.05; gap > reach && reach < problem.cell.width_x; reach *= 4)
+    for (std::size_t k = 0; k < state.position.size(); ++k)
+      gap = std::min(gap, problem.interactions.height_field->gap(state.position[k], problem.particles.radius[k], std::min(gap, reach)));
+  return gap;
+}
+
 // height: of the surface; drained: what the dewatering leaves, lower where a pressure-limited surface lags.
 // Pressures, step and iterations are means over the frame's interval, the smallest gap its minimum; the rest is of the instant.
 std::vector<double> observe(const Problem& problem, const RunState& state, double height, double drained) {
   const auto& radius = problem.particles.radius;
   const std::vector<double>& sum = state.interval;
   const bool surface = problem.interactions.free_surface.has_value();
-  const double thickness = surface ? height : height_below_which(1, state.position, radius);
+  const double top = surface ? height : height_below_which(1, state.position, radius);
   double solid_mass = 0;
   for (double m : problem.particles.mass) solid_mass += m;
   // Below the surface; without one, below the top of the highest particle.
-  const double liquid_volume = std::max(0.0, problem.cell.area() * (surface ? drained : thickness) - solids_volume(radius));
+  const double liquid_volume = std::max(0.0, problem.cell.area() * problem.interactions.space_below(surface ? drained : top) - solids_volume(radius));
   const bool stepped = sum[Steps] > 0;
   std::vector<double> observables = {
-          thickness,
+          problem.interactions.space_below(top),
           height_below_which(0.95, state.position, radius),
           height_below_which(0.99, state.position, radius),
           solid_mass / (solid_mass + problem.interactions.liquid.density * liquid_volume),
@@ -82,6 +91,7 @@ std::vector<double> observe(const Problem& problem, const RunState& state, doubl
           surface ? non_affine_rate(state, height) : 0.0,
           surface && state.frame > 0 ? redistribution_ratio(state.redistribution) : 1.0};
   if (problem.interactions.hindered()) observables.push_back(stepped ? sum[LiquidImpulse] / sum[Duration] : 0.0);
+  if (problem.interactions.height_field) observables.push_back(smallest_gap_to_substrate(problem, state));
   return observables;
 }
 
@@ -105,6 +115,7 @@ std::vector<ObservableName> observable_names(const assembly::Interactions& inter
       {Observable::Redistribution, "redistribution", Dimension::Number},
   };
   if (interactions.hindered()) names.push_back({Observable::LiquidPressure, "liquid_pressure", Dimension::Pressure});
+  if (interactions.height_field) names.push_back({Observable::MinimumSubstrateGap, "minimum_substrate_gap", Dimension::Length});
   return names;
 }
 

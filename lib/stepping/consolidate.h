@@ -12,7 +12,8 @@ namespace pigment::stepping {
 enum class Observable {
   Thickness, Z95, Z99, SolidsMassFraction, MassCentre, SurfacePressure, SubstratePressure, ProtrudingFraction,
   MinimumGap, StepSize, SolverIterations, Contacts, NonAffineRate, Redistribution,
-  LiquidPressure,  // with hindered drag
+  LiquidPressure,       // with hindered drag
+  MinimumSubstrateGap,  // over a substrate that is not flat
 };
 struct ObservableName {
   Observable observable;

@@ -117,13 +117,13 @@ double StepContext::height_within(std::size_t k, double z, double safe_z, double
   const auto& interactions = problem_.interactions;
   const double a = problem_.particles.radius[k];
   if (interactions.free_surface) z = std::min(z, std::max(safe_z, surface - a - interactions.free_surface->roughness));
-  if (interactions.substrate && !interactions.substrate->roughness && safe_z > a) z = std::max(z, a + nearest_share * (safe_z - a));
+  if (interactions.substrate && !interactions.height_field && safe_z > a) z = std::max(z, a + nearest_share * (safe_z - a));
   return z;
 }
 
 bool StepContext::too_near_substrate(std::size_t k, const Vec3& position, const Vec3& safe) const {
   const auto& interactions = problem_.interactions;
-  if (!interactions.substrate || !interactions.substrate->roughness || position == safe) return false;
+  if (!interactions.substrate || !interactions.height_field || position == safe) return false;
   const double a = problem_.particles.radius[k], gap = assembly_->rough_gap(safe, a);
   return gap > 0 && std::isfinite(gap) && assembly_->rough_gap(position, a) < nearest_share * gap;
 }

@@ -63,6 +63,14 @@ void limit(SmallLayer& small, double pressure) {
   small.problem.interactions.free_surface->max_pressure = pressure;
 }
 
+// Bends the substrate, and lifts all that stands on it above the crests.
+void roughen(SmallLayer& small, const Roughness& roughness) {
+  const auto field = std::make_shared<const HeightField>(height_map(roughness), small.problem.cell);
+  small.problem.interactions.height_field = field;
+  small.problem.cell.height += field->crest();
+  for (Vec3& p : small.position) p.z() += field->crest();
+}
+
 struct Recorded {
   stepping::RunState state;
   std::vector<std::vector<double>> observables;
@@ -118,14 +126,15 @@ TEST(DryingLayer, ParticlesStayBetweenSubstrateAndSurfaceAndNeverOverlap) {
 }
 
 TEST(DryingLayer, SameBytesAtAnyThreadCountAndHoweverOftenInterrupted) {
-  for (const char* scene : {"smooth", "brownian", "hindered", "pressure_limited", "thermal", "thermal_limited"}) {
+  for (const char* scene : {"smooth", "brownian", "hindered", "pressure_limited", "thermal", "thermal_limited", "rough"}) {
     const bool thermal = std::string(scene).starts_with("thermal");
     SmallLayer small = small_layer(thermal || scene == std::string("brownian"));
     if (thermal) small.problem.interactions.brownian->model = forces::BrownianParameters::Model::FluctuationDissipation;
     if (scene == std::string("hindered")) hinder(small);
+    if (scene == std::string("rough")) roughen(small, {0.5, 1.25, {}});
     if (std::string(scene).ends_with("limited")) limit(small, 1.5);
     // The limited one lags from the start: there the surface presses with 3 Pa.
-    const double until = thermal ? 2 : small.problem.interactions.pressure_limited() ? 5 : 30;
+    const double until = thermal ? 2 : scene == std::string("rough") ? 5 : small.problem.interactions.pressure_limited() ? 5 : 30;
     omp_set_num_threads(2);
     const Recorded whole = run(small, 0, until);
     omp_set_num_threads(1);

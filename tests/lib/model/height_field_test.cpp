@@ -10,7 +10,7 @@ using namespace pigment;
 namespace {
 
 const Cell cell{4, 5, 10};
-const Roughness rough{1.2, 1.3};  // three periods along x, four along y
+const HeightMap rough = height_map({1.2, 1.3, {}});  // three periods along x, four along y
 
 // The surface on a fine grid about a point: an answer that shares nothing with Newton's method.
 struct Nearest {
@@ -105,10 +105,11 @@ TEST(HeightField, FeetAreThoseThatAFineGridFinds) {
 
 TEST(HeightField, APointInsideHasANegativeDistance) {
   const HeightField field(rough, cell);
-  for (double depth : {0.01, 0.1, 0.3}) {
+  for (double depth : {0.01, 0.1, 0.3, 0.8}) {
     const Vec3 p(0.4, 1.1, field.height(0.4, 1.1) - depth);
     const auto feet = field.feet(p, 1);
     ASSERT_EQ(feet.size(), 1u);
+    EXPECT_EQ(field.feet(p, 1e-3).size(), 1u);  // however far
     EXPECT_LT(feet[0].distance, 0);
     EXPECT_NEAR(-feet[0].distance, brute_force(field, p, 1, 0.002).distance, grid_error(-feet[0].distance, 0.002));
     EXPECT_GE(depth, -feet[0].distance);
@@ -116,14 +117,16 @@ TEST(HeightField, APointInsideHasANegativeDistance) {
   }
 }
 
-// Crests and valleys of A (2 + cos kx x + cos ky y)/4 have the curvatures A k^2/4.
+// Crests and valleys of A (2 + cos kx x + cos ky y)/4 have the curvatures A k^2/4; those of the spline through points h apart
+// 6 (1 - cos kh)/((2 + cos kh) (kh)^2) of that, 2 % more at twelve a wavelength.
 TEST(HeightField, CurvatureIsPositiveOnCrestsAndNegativeInValleys) {
-  const HeightField field({1.2, 1}, Cell{4, 4, 10});
-  const double expected = 1.2 * std::pow(2 * std::numbers::pi, 2) / 4;
+  const HeightField field(height_map({1.2, 1, {}}), Cell{4, 4, 10});
+  const double kh = 2 * std::numbers::pi / 12, spline = 6 * (1 - std::cos(kh)) / ((2 + std::cos(kh)) * kh * kh);
+  const double expected = spline * 1.2 * std::pow(2 * std::numbers::pi, 2) / 4;
   const auto crest = field.feet({0, 0, 1.5}, 0.4), valley = field.feet({0.5, 0.5, 0.03}, 0.1);
   ASSERT_EQ(crest.size(), 1u);
   ASSERT_EQ(valley.size(), 1u);
-  EXPECT_NEAR(crest[0].curvature, expected, 1e-3 * expected);
-  EXPECT_NEAR(valley[0].curvature, -expected, 1e-3 * expected);
+  EXPECT_NEAR(crest[0].curvature, expected, 1e-6 * expected);
+  EXPECT_NEAR(valley[0].curvature, -expected, 1e-6 * expected);
   EXPECT_NEAR(crest[0].distance, 0.3, 1e-4);
 }
