@@ -203,7 +203,8 @@ Image draw(const Layer& layer, const ParticleColours& colours, const Overlay& ov
   }
   if (s.substrate) {
     scene.substrate.push_back(around);
-    scene.substrate.back().lower.z() = -slab, scene.substrate.back().upper.z() = 0;
+    scene.substrate.back().lower.z() = -slab, scene.substrate.back().upper.z() = layer.substrate ? layer.substrate->crest() : 0;
+    scene.ground = layer.substrate;
   }
   if (s.surface) scene.liquid.push_back(around);
 

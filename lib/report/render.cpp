@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
+#include "report/ground.h"
 #include "report/occlusion.h"
 #include "report/ray.h"
 
@@ -44,6 +46,7 @@ class Renderer {
     to_key_ = (-0.55 * camera.right + 0.75 * camera.up - 0.75 * camera.forward).normalized();
     if (camera.forward.z() < -0.9)
       to_key_ = (-0.5 * camera.right + 0.5 * camera.up - camera.forward).normalized();
+    if (scene.ground) ground_.emplace(scene.ground);
     sort_into_tiles();
   }
 
@@ -61,6 +64,7 @@ class Renderer {
   const RenderSettings& settings_;
   OccluderGrid occluders_;
   Vec3 to_key_;
+  std::optional<Ground> ground_;
   int tiles_x_ = 0, tiles_y_ = 0;
   std::vector<std::vector<int>> tile_objects_;
   std::vector<PixelBounds> bounds_;
@@ -137,8 +141,10 @@ class Renderer {
           Interval inside = through_box(rays[i], box);
           if (kept[i].begin > inside.begin && kept[i].begin > -infinity)
             inside = {kept[i].begin, inside.end, 3 + kept[i].begin_face};
-          if (inside.begin < std::min(inside.end, kept[i].end))
-            hits[i] = {inside.begin, substrate_object(), inside.begin_face};
+          inside.end = std::min(inside.end, kept[i].end);
+          if (ground_ && inside.begin < inside.end && !ground_->below(rays[i].origin + (inside.begin + 1e-9) * rays[i].direction))
+            inside = {ground_->entry(rays[i], inside), inside.end, 2};
+          if (inside.begin < inside.end) hits[i] = {inside.begin, substrate_object(), inside.begin_face};
         }
       }
     for (const int object : tile_objects_[static_cast<std::size_t>(tile)]) {
@@ -274,6 +280,7 @@ class Renderer {
       normal[hit.face] = ray.direction[hit.face] > 0 ? -1 : 1;
     }
     const bool upper_face = hit.face == 2 && normal.z() > 0;
+    if (upper_face && ground_) normal = ground_->normal(point);
     const double depth = (box.upper.z() - point.z()) / std::max(1e-12, box.upper.z() - box.lower.z());
     const Colour base = upper_face ? paper : (1 - 0.28 * std::clamp(depth, 0.0, 1.0)) * paper;
     return lit(normal, base, upper_face ? occluders_.light_at(point, normal, to_key_, -1) : Illumination{});

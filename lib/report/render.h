@@ -4,9 +4,11 @@
 // dimmed by the neighbours (ambient occlusion from the spheres themselves), the liquid as a light tint along
 // the line of sight. Every pixel is a pure function of the scene, so the bytes do not depend on the number of
 // threads.
+#include <memory>
 #include <vector>
 
 #include "base/vec.h"
+#include "model/height_field.h"
 #include "report/colour.h"
 #include "report/png_image.h"
 
@@ -40,6 +42,7 @@ struct SphereScene {
   std::vector<Connection> connections;
   std::vector<CuttingPlane> cuts;
   std::vector<Box> substrate;  // none or one
+  std::shared_ptr<const HeightField> ground = nullptr;  // its upper face, where that is not flat; the box ends at its crests
   std::vector<Box> liquid;     // none or one; its upper face is the free surface
 };
 

@@ -73,6 +73,17 @@ std::string json_strings(const std::vector<std::string>& texts) {
   return "[" + out + "]";
 }
 
+// Heights of a substrate that is not flat at the corners of an even mesh over the cell: mesh + 1 along x and y. null: flat.
+std::string ground_of(const Layer& layer) {
+  if (!layer.substrate) return "null";
+  constexpr int mesh = 80;
+  std::string heights;
+  for (int i = 0; i <= mesh; ++i)
+    for (int j = 0; j <= mesh; ++j)
+      heights += fmt::format("{}{:.4g}", heights.empty() ? "" : ",", layer.substrate->height(layer.cell.width_x * i / mesh, layer.cell.width_y * j / mesh));
+  return fmt::format(R"({{"mesh":{},"heights":[{}]}})", mesh, heights);
+}
+
 }  // namespace
 
 ViewerLayer pack_layer(const RunView& view, std::size_t most_frames) {
@@ -151,10 +162,10 @@ ViewerLayer pack_layer(const RunView& view, std::size_t most_frames) {
   for (int s = static_cast<int>(names.size()); s <= kinds && kinds > 0; ++s) names.push_back(fmt::format("species {}", s));
   out.meta = fmt::format(
       R"({{"name":{},"count":{},"times":[{}],"labels":{},"heights":[{}],"width":[{:.9g},{:.9g}],"z_low":{:.9g},"z_step":{:.9g},)"
-      R"("z_top":{:.7g},"mean_radius":{:.7g},"species":{},"velocity":{},"run_speed":{},"threshold":{:.7g},"substrate":{},"free_surface":{}}})",
+      R"("z_top":{:.7g},"mean_radius":{:.7g},"species":{},"velocity":{},"run_speed":{},"threshold":{:.7g},"substrate":{},"ground":{},"free_surface":{}}})",
       json_string(view.files.name), n, times, json_strings(labels), heights, frames.front().cell.width_x,
       frames.front().cell.width_y, low, z_step, top, mean_radius, json_strings(names), has_velocity, moves, threshold,
-      around.substrate, around.free_surface);
+      around.substrate, ground_of(file.layer(0)), around.free_surface);
   out.packed = base64(compressed(bytes));
   out.shown = frames.size(), out.frames = file.frame_count();
   out.rounding = std::max({z_step, frames.front().cell.width_x / 65536, frames.front().cell.width_y / 65536});

@@ -70,6 +70,30 @@ THREE.ColorManagement.enabled = false;  // colours are the screen's own numbers 
 
 const cuts_shared = {cut_low: {value: new THREE.Vector3()}, cut_high: {value: new THREE.Vector3()}};
 
+// A substrate that is not flat, lit once: heights at the corners of an even mesh.
+const ground_mesh = ({mesh, heights}, w, d) => {
+  const corners = [], colours = [], index = [], row = mesh + 1, light = new THREE.Vector3(-0.45, 0.65, 0.75).normalize();
+  const at = (i, j) => heights[i * row + j];
+  const near = i => [Math.max(0, i - 1), Math.min(mesh, i + 1)];
+  for (let i = 0; i <= mesh; ++i)
+    for (let j = 0; j <= mesh; ++j) {
+      const [a, b] = near(i), [c, e] = near(j);
+      corners.push(w * i / mesh, d * j / mesh, at(i, j));
+      const normal = new THREE.Vector3(-(at(b, j) - at(a, j)) * mesh / (w * (b - a)), -(at(i, e) - at(i, c)) * mesh / (d * (e - c)), 1).normalize();
+      const shade = 0.55 + 0.45 * Math.max(0, normal.dot(light));
+      colours.push(0.82 * shade, 0.77 * shade, 0.69 * shade);
+      if (i < mesh && j < mesh) {
+        const k = i * row + j;
+        index.push(k, k + row, k + 1, k + 1, k + row, k + row + 1);
+      }
+    }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners), 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(colours), 3));
+  geometry.setIndex(index);
+  return new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({vertexColors: true, side: THREE.DoubleSide}));
+};
+
 class LayerScene {
   constructor(data) {
     this.data = data;
@@ -124,6 +148,7 @@ class LayerScene {
       const slab = new THREE.Mesh(new THREE.BoxGeometry(w, d, 0.02 * data.z_top), new THREE.MeshBasicMaterial({color: 0x9b948a}));
       slab.position.set(w / 2, d / 2, -0.01 * data.z_top);
       this.scene.add(slab);
+      if (data.ground) this.scene.add(ground_mesh(data.ground, w, d));
     }
     this.surface = new THREE.Mesh(new THREE.PlaneGeometry(w, d),
       new THREE.MeshBasicMaterial({color: 0x4a90d9, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false}));

@@ -32,6 +32,29 @@ PictureSettings small() {
   return s;
 }
 
+// Seen from above, a rough substrate's face shows light and shade; from the side, cut, its outline stands at its height.
+TEST(LayerPicture, RoughSubstrateIsDrawnWhereItStands) {
+  Layer flat = one_sphere({1, 1, 3}), rough = flat;
+  rough.substrate = std::make_shared<const HeightField>(height_map({1.6, 4, {}}), rough.cell);  // its crest over (0, 0), 0 over (2, 2)
+  const auto colours = colours_by_size(flat.particles);
+  PictureSettings s = small();
+  s.surface = false;
+  s.framed_height = 4;
+  EXPECT_NE(draw_layer(flat, colours, s).rgb, draw_layer(rough, colours, s).rgb);
+  // The cut through y = 2 looks at A (2 + cos kx - 1)/4: 0.8 um at x = 0 and 4, 0 in the middle.
+  s.cuts = {{1, 2.0}};
+  s.substrate = true;
+  const Image image = draw_layer(rough, colours, s);
+  const auto paper_top = [&](int x) {  // first row from above that is not backdrop (its blue is not below its red)
+    for (int y = 0; y < image.height; ++y)
+      if (image.at(x, y)[2] + 8 < image.at(x, y)[0]) return y;
+    return image.height;
+  };
+  const double pixel = 5.0 / (0.94 * 200);  // the box is 5 um wide with the sphere's overhang, margins 3 %
+  const int middle = paper_top(100), side = paper_top(100 - static_cast<int>(2 / pixel));
+  EXPECT_NEAR((middle - side) * pixel, 0.8, 3 * pixel);
+}
+
 TEST(LayerPicture, UnwrappedPositionsAreWrapped) {
   const Layer inside = one_sphere({1, 2, 2}), elsewhere = one_sphere({1 + 12, 2 - 8, 2});
   const auto colours = colours_by_size(inside.particles);
