@@ -47,7 +47,7 @@ StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   if (interactions_.lubrication())
     s.resistance = resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(gap, surface.roughness)).perpendicular;
   if (protrusion_guess_[k] > held) {
-    const forces::SpringForce spring = forces::surface_spring(surface, a, protrusion_guess_[k]);
+    const forces::SpringForce spring = forces::lifted_spring(surface, a, protrusion_guess_[k]);
     s.force = spring.force;
     s.stiffness = spring.stiffness;
   }
@@ -103,7 +103,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       }
       // protrusion at the end: p1 = z0 + a + dt U_z + roughness - H1
       const double without_motion = position_[k].z() + a + interactions_.free_surface->roughness - surface_end_;
-      if (s.stiffness > 0) {
+      if (s.force > 0) {
         f[2] -= s.force + s.stiffness * (without_motion - s.anchor);
         if (!resistance_only_) t.along += dt_ * s.stiffness;
       }
@@ -129,7 +129,7 @@ double StepAssembly::surface_pressure(const std::vector<double>& u) const {
   for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
     const SurfaceState s = surface_state(k);
     force += liquid_.viscosity * s.resistance * (u[k * D + 2] + approach_speed());
-    if (s.stiffness > 0) force += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
+    if (s.force > 0) force += s.force + s.stiffness * (protrusion_end_[k] - s.anchor);
     if (protrusion_guess_[k] == held) force += holding_force_[k];
   }
   return force / cell_.area();

@@ -294,12 +294,14 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
           if (holding_force_[k] < 0) guess = 0;  // the surface lets go
           else if (holding_force_[k] > forces::rigid_load(*interactions_.free_surface, a)) guess = 2 * forces::rigid_protrusion;
         } else if (guess > 0) {
-          const forces::SpringForce spring = forces::surface_spring(*interactions_.free_surface, a, guess);
+          const forces::SpringForce spring = forces::lifted_spring(*interactions_.free_surface, a, guess);
           const double taken = spring.force + spring.stiffness * (protrusion - guess);
-          const double true_force = forces::surface_spring(*interactions_.free_surface, a, protrusion).force;
-          if (protrusion <= forces::rigid_protrusion) guess = held;
-          // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle.
-          else if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4) guess = protrusion;
+          const double true_force = forces::lifted_spring(*interactions_.free_surface, a, protrusion).force;
+          if (protrusion <= 0) guess = held;
+          // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle. The force rises ever more slowly with
+          // the height: Newton's method from below comes nearer without overshooting, so what left the constant part begins at its end.
+          else if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4)
+            guess = guess < forces::rigid_protrusion && protrusion > forces::rigid_protrusion ? forces::rigid_protrusion : protrusion;
         } else if (protrusion > 0) {
           guess = held;  // caught
         }

@@ -19,6 +19,10 @@ double rigid_load(const FreeSurfaceParameters& p, double a) {
   return surface_spring(p, a, rigid_protrusion).force;
 }
 
+SpringForce lifted_spring(const FreeSurfaceParameters& p, double a, double h) {
+  return h < rigid_protrusion ? SpringForce{rigid_load(p, a), 0} : surface_spring(p, a, h);
+}
+
 double entry_pressure(const FreeSurfaceParameters& p, const std::vector<double>& radius) {
   if (p.max_pressure) return *p.max_pressure;
   double surface = 0, volume = 0;

@@ -21,6 +21,9 @@ SpringForce surface_spring(const FreeSurfaceParameters&, double radius, double p
 inline constexpr double rigid_protrusion = 1e-5;  // um
 // The load up to which the particle is held exactly, pN; infinite for model `constraint`.
 double rigid_load(const FreeSurfaceParameters&, double radius);
+// The spring on a particle that a larger load has lifted: below rigid_protrusion it pulls with rigid_load, so that the force rises
+// steadily with the height from held to lifted and every load has one height.
+SpringForce lifted_spring(const FreeSurfaceParameters&, double radius, double protrusion);
 
 // Pressure at which air enters the pores between these spheres and the surface no longer follows the liquid, pN/um^2: the
 // scene's, or sigma times the solids' surface over their volume, 6 sigma/d32. Wetting liquid in a bed of solids phi holds against

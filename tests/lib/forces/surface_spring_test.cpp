@@ -71,6 +71,21 @@ TEST(SurfaceSpring, HoldsExactlyUpToWhatWouldLiftByAHundredthOfANanometre) {
   EXPECT_TRUE(std::isinf(rigid_load(surface("{model: constraint}"), 0.5)));
 }
 
+// Each load above what is held has one height, and none is skipped: the force neither falls nor jumps on the way up.
+TEST(SurfaceSpring, WhatIsLiftedIsPulledBackNoLessThanWhatIsHeld) {
+  for (const auto& p : {arc, gain}) {
+    const double load = rigid_load(p, 0.2);
+    EXPECT_EQ(lifted_spring(p, 0.2, 1e-12).force, load);
+    double before = load;
+    for (double h = 1e-6; h < 0.1; h *= 1.1) {
+      const double f = lifted_spring(p, 0.2, h).force;
+      EXPECT_GE(f, before);
+      EXPECT_LT(f, 1.2 * before);  // 1.1 to the power of 3/2 (arc minus chord) or 1/2
+      before = f;
+    }
+  }
+}
+
 // 6 sigma/d32 by hand: diameters 1 (twice) and 2: d32 = (2 + 8)/(2 + 4) = 5/3 um.
 TEST(SurfaceSpring, EntryPressureIsTheScenesOrTheSolidsSurfaceTimesTension) {
   EXPECT_NEAR(entry_pressure(surface("{model: pressure_limited}"), {0.5, 1, 0.5}), 6 * 72000 / (5.0 / 3), 1e-6);
