@@ -2,12 +2,13 @@
 // How Newton's iteration moves the guess of a gap at the step's end.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pigment::assembly {
 
-// A guess may fall by this factor in one refinement, so that a gap that came out negative is approached from above; and rise by
-// this, since repulsion linearised deep inside a steep barrier throws a gap out too far.
-inline constexpr double largest_fall = 0.2, largest_rise = 3;
+// A guess falls and rises at most by these factors at a time, so that a gap that came out negative is approached from above and
+// that one linearised deep inside a steep barrier is not thrown out too far. It falls further where the force asks for it (next_gap).
+inline constexpr double largest_fall = 0.2, largest_rise = 3, deepest_fall = 0.02;
 
 // Whether a gap came out far from what the system was linearised about.
 inline bool off_guess(double gap, double guess, bool refined) {
@@ -15,5 +16,49 @@ inline bool off_guess(double gap, double guess, bool refined) {
 }
 
 inline double next_guess(double gap, double guess) { return std::clamp(gap, largest_fall * guess, largest_rise * guess); }
+
+// Where Newton's method goes on for one gap, when the gap that a solution of the linearised system gives is far from the one that the
+// force was linearised about.
+//
+// The linear system gives a gap and the force that goes with it, and either may be what the surroundings impose. Where they impose the
+// force (a few spheres squeezed between soft neighbours) the next guess is the gap at which the true force has that value: one step
+// from either side of a Born wall, h^-8, where the linear answer would be far inside it, or come out of it by an eighth a time.
+// Where they impose the gap, what is left is the error of a force that is steeper than the surroundings, and converges as Newton's.
+// gap: of the linear solution (may be negative), um; tangent: its force, pN; guess > 0; force(h): the true force at h, repulsion positive.
+template <typename Force>
+double next_gap(double gap, double guess, double tangent, const Force& force) {
+  const bool inwards = gap < guess;
+  const double direct = std::clamp(gap, largest_fall * guess, largest_rise * guess);
+  // Less than the linear law says: the gap itself is the nearer guess, unless it is none.
+  if (direct == gap && force(gap) <= tangent) return gap;
+  const double limit = inwards ? std::max(gap, deepest_fall * guess) : largest_rise * guess, factor = inwards ? 0.7 : 1.4;
+  double from = guess, to = guess;
+  for (bool found = false; !found;) {
+    if (to == limit) return direct;  // no gap has this force
+    from = to;
+    to = inwards ? std::max(limit, factor * to) : std::min(limit, factor * to);
+    found = inwards ? force(to) >= tangent : force(to) <= tangent;
+  }
+  for (int k = 0; k < 6; ++k) {
+    const double middle = std::sqrt(from * to);
+    ((inwards ? force(middle) >= tangent : force(middle) <= tangent) ? to : from) = middle;
+  }
+  return std::sqrt(from * to);
+}
+
+// What the guesses of one gap have shown so far in a step: that the solution lies above `low` and below `high`. A force with a well
+// (a bond that may open or close) sends plain iterations from one side of it to the other and back.
+struct GapBracket {
+  float low = 0, high = std::numeric_limits<float>::infinity();
+
+  // The next guess: `next`, or half-way (in the logarithm) to the end of the bracket that it would leave.
+  double take(double next, double guess) {
+    (next > guess ? low : high) = static_cast<float>(guess);
+    if (high < 1.02f * low) *this = {};  // the surroundings have moved
+    if (next >= high) return std::sqrt(guess * high);
+    if (next <= low) return std::sqrt(guess * low);
+    return next;
+  }
+};
 
 }  // namespace pigment::assembly

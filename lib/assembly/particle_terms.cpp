@@ -21,6 +21,16 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
   return s;
 }
 
+StepForce StepAssembly::substrate_step_force(int k) const {
+  const double a = radius_[k], begin = position_[k].z() - a;
+  static const std::vector<std::unique_ptr<forces::PreparedPairLaw>> none;
+  StepForce f{interactions_.substrate->colloidal ? laws_ : none, substrate_geometry_[k], begin, 0, 0};
+  const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
+  f.singular = liquid_.viscosity * resistance::squeeze_constant(a) / dt_;
+  f.linear = liquid_.viscosity * resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular / dt_ - f.singular / at;
+  return f;
+}
+
 StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
   if (path_) return path_substrate_state(k);
   SubstrateState s{position_[k].z() - radius_[k], 0, 0};

@@ -62,6 +62,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   resistance_gap_.resize(pairs_.size());
   resistance_height_.resize(n);
   scalars_.resize(pairs_.size());
+  bracket_.resize(pairs_.size());
   position_.resize(n);
   protrusion_guess_.assign(n, 0.0);
   protrusion_end_.assign(n, 0.0);
@@ -99,6 +100,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     for (const auto& [name, law] : interactions_.colloidal) laws_.push_back(law->prepare(liquid));
     prepared_temperature_ = liquid.temperature;
   }
+  std::fill(bracket_.begin(), bracket_.end(), GapBracket{});
   const std::size_t n = radius_.size();
   external_force_.resize(force.empty() ? 0 : n);
   const int chunks = topology_.chunks().count();
@@ -152,9 +154,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const double at = resistance_gap_[p];
     if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
       const forces::PairGeometry& g = geometry_[p];
-      const double smaller = std::min(g.radius_a, g.radius_b);
-      const double weight = resistance::taper(at / smaller, interactions_.hydrodynamics.taper.squeeze_begin,
-                                              interactions_.hydrodynamics.taper.squeeze_end);
+      const double weight = squeeze_weight(p);
       const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess, at);
       viscous += weight * step.coefficient;
       f += mu * weight * step.impulse / dt_;
@@ -262,8 +262,18 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
-      if (off_guess(gap, guess, guess != gap_begin_[p])) {
-        guess = next_guess(gap, guess);
+      const bool refined = guess != gap_begin_[p];
+      bool off = off_guess(gap, guess, refined);
+      const double linear_part = std::max(stiffness_[c][p - topology_.pair_begin(c)], 0.0) * (guess - gap);
+      if (!off && !refined && std::abs(linear_part) > 10) {
+        const StepForce force = pair_step_force(p);
+        const double tangent = force.tangent(gap);
+        off = std::abs(force(gap) - tangent) > 0.2 * std::abs(tangent) + 10;
+      }
+      if (off) {
+        const StepForce force = pair_step_force(p);
+        const double next = next_gap(gap, guess, force.tangent(gap), force);
+        guess = bracket_[p].take(next, guess);
         check.refine = true;
       }
     }
@@ -278,7 +288,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         if (interactions_.lubrication() && begin > 0) {
           if (gap <= 0) check.crossed = true;
           if (newton_ && off_guess(gap, guess, guess != begin)) {
-            guess = next_guess(gap, guess);
+            const StepForce force = substrate_step_force(k);
+            guess = next_gap(gap, guess, force.tangent(gap), force);
             check.refine = true;
           }
         } else if ((gap < 0) != (guess < 0)) {
@@ -331,6 +342,24 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
 
 double StepAssembly::rough_gap(const Vec3& position, double radius) const {
   return rough_ ? rough_->gap(position, radius) : std::numeric_limits<double>::infinity();
+}
+
+StepForce StepAssembly::pair_step_force(std::size_t p) const {
+  const forces::PairGeometry& g = geometry_[p];
+  StepForce f{laws_, g, gap_begin_[p], 0, 0};
+  const resistance::PairScalars& s = scalars_[p];
+  if (s.squeeze > 0) {
+    const double singular = liquid_.viscosity * squeeze_weight(p) * resistance::squeeze_constant(g.reduced_radius()) / dt_;
+    f.singular = singular;
+    f.linear = liquid_.viscosity * s.squeeze / dt_ - singular / resistance_gap_[p];
+  }
+  return f;
+}
+
+double StepAssembly::squeeze_weight(std::size_t p) const {
+  const forces::PairGeometry& g = geometry_[p];
+  return resistance::taper(resistance_gap_[p] / std::min(g.radius_a, g.radius_b), interactions_.hydrodynamics.taper.squeeze_begin,
+                           interactions_.hydrodynamics.taper.squeeze_end);
 }
 
 double StepAssembly::pair_force(std::size_t p) const {

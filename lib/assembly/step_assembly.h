@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assembly/interactions.h"
+#include "assembly/step_force.h"
 #include "assembly/rough_substrate.h"
 #include "assembly/slice_flow.h"
 #include "assembly/surface_search.h"
@@ -97,6 +98,9 @@ class StepAssembly {
   SurfaceState surface_state(int k) const;
   SubstrateState substrate_state(int k) const;
   resistance::SqueezeStep wall_squeeze(int k) const;  // the whole perpendicular term of the substrate
+  double squeeze_weight(std::size_t p) const;         // taper on the singular part of a pair's squeeze resistance
+  StepForce pair_step_force(std::size_t p) const;
+  StepForce substrate_step_force(int k) const;
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
@@ -135,6 +139,7 @@ class StepAssembly {
   std::vector<double> random_force_;
   bool path_ = false, path_resistance_ = false, path_force_ = false, resistance_only_ = false;
   int passes_ = 0;  // solutions judged in this step
+  std::vector<GapBracket> bracket_;  // one a pair
   // What the averages along the step start from.
   std::vector<Vec3> separation_;                             // one a pair, from i to j
   std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;

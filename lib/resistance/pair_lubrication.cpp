@@ -99,8 +99,10 @@ PairOperatorScalars operator_scalars(const PairScalars& k, double radius_i, doub
   return {k.squeeze, k.twist, k.shear + t * (t * k.pump - 2 * k.shear_pump), t * k.pump - k.shear_pump, k.pump};
 }
 
+double squeeze_constant(double R) { return 6 * pi * R * R; }
+
 SqueezeStep squeeze_step(double R, double gap_begin, double gap_guess) {
-  const double c = 6 * pi * R * R, y = (gap_begin - gap_guess) / gap_guess;  // h0/g = 1 + y
+  const double c = squeeze_constant(R), y = (gap_begin - gap_guess) / gap_guess;  // h0/g = 1 + y
   // ln(1 + y) - y, by its series where y is small, to keep all digits.
   const double rest = std::abs(y) < 1e-4 ? y * y * (-0.5 + y / 3) : std::log1p(y) - y;
   return {c * y / gap_begin, c * rest};
@@ -108,7 +110,7 @@ SqueezeStep squeeze_step(double R, double gap_begin, double gap_guess) {
 
 SqueezeStep squeeze_step(double R, double gap_begin, double gap_guess, double gap_at) {
   const SqueezeStep s = squeeze_step(R, gap_begin, gap_guess);
-  return {s.coefficient + 6 * pi * R * R * (1 / gap_begin - 1 / gap_at), s.impulse};
+  return {s.coefficient + squeeze_constant(R) * (1 / gap_begin - 1 / gap_at), s.impulse};
 }
 
 }  // namespace pigment::resistance

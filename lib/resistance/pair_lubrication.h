@@ -51,6 +51,7 @@ PairOperatorScalars operator_scalars(const PairScalars&, double radius_i, double
 // h1 is c ln(h0/h1), which no gap can cross. Newton's linearisation of it about a guess g of h1, for a step of length dt:
 //   force = -(c/h0 + coefficient) dh/dt + impulse/dt,  coefficient = c (1/g - 1/h0),  impulse = c (ln(h0/g) + 1 - h0/g)
 // (c/h0 stands in the scalar already; the force repels where positive). All gaps > 0; times the viscosity.
+double squeeze_constant(double reduced_radius);  // c, um^2
 struct SqueezeStep {
   double coefficient = 0;  // um
   double impulse = 0;      // um^2

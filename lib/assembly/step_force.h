@@ -1,0 +1,42 @@
+#pragma once
+// Force along one gap over one step, as a function of the gap at its end: the colloidal laws there and the squeeze resistance
+// averaged along the step, c ln(h0/h)/dt for its singular part (resistance::squeeze_step) and linear for the rest.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "forces/pair_law.h"
+
+namespace pigment::assembly {
+
+struct StepForce {
+  const std::vector<std::unique_ptr<forces::PreparedPairLaw>>& laws;
+  forces::PairGeometry geometry;  // its gap is the guess
+  double gap_begin = 0;           // um, > 0
+  double singular = 0;            // c/dt times the viscosity, pN
+  double linear = 0;              // the rest of the resistance over dt, pN/um, that of 1/h0 left out
+
+  double operator()(double gap) const { return colloidal(gap).force + singular * std::log(gap_begin / gap) - linear * (gap - gap_begin); }
+  // As the system was linearised about the guess.
+  double tangent(double gap) const {
+    const double guess = geometry.gap;
+    const forces::PairTerm t = colloidal(guess);
+    return t.force + std::max(t.stiffness, 0.0) * (guess - gap) + singular * (std::log(gap_begin / guess) + (guess - gap) / guess) -
+           linear * (gap - gap_begin);
+  }
+
+ private:
+  forces::PairTerm colloidal(double gap) const {
+    forces::PairGeometry g = geometry;
+    g.gap = gap;
+    forces::PairTerm sum;
+    for (const auto& law : laws) {
+      const forces::PairTerm t = law->switched(g);
+      sum.force += t.force;
+      sum.stiffness += t.stiffness;
+    }
+    return sum;
+  }
+};
+
+}  // namespace pigment::assembly
