@@ -54,7 +54,7 @@ Parameters read_analysis(config::Node node) {
       node.quantity("cake_solids", Dimension::VolumeFraction, "55 vol%", config::strictly_between(0, 1));
   p.wall_layer = node.quantity("wall_layer", Dimension::Length, "1 um", config::non_negative());
   p.envelope_column = node.quantity("envelope_column", Dimension::Length, "0.25 um", config::positive());
-  p.immobilisation_window = node.quantity("immobilisation_window", Dimension::Time, "50 ms", config::positive());
+  p.immobilisation_shrinkage = node.number("immobilisation_shrinkage", p.immobilisation_shrinkage, config::strictly_between(0, 1));
   p.immobilisation_ratio = node.number("immobilisation_ratio", p.immobilisation_ratio, config::positive());
   p.structure = node.choice<Parameters::Structure>("structure",
                                                    {{"none", Parameters::Structure::None},

@@ -17,7 +17,7 @@ struct Parameters {
   double wall_layer = 1.0;        // um next to a plane where looser slices are passed over: spheres dip there
   double envelope_column = 0.25;  // um, lateral step of the top envelope
   double immobilisation_ratio = 0.01;  // immobile: mass moved between heights over the window, over the surface's fall
-  double immobilisation_window = 50;   // ms
+  double immobilisation_shrinkage = 0.03;  // the window: the last frames in which the layer shrank by this share
   enum class Structure { None, Last, All };
   Structure structure = Structure::Last;  // frames whose local solids and pores are measured
   int pore_points = 100000;               // at which the distance to the nearest particle is taken

@@ -216,16 +216,9 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   std::deque<Redistribution> window;
   for (std::size_t k = 0; k < measured.size(); ++k) {
     NonAffineInterval& interval = result.intervals[k];
-    window.push_back(measured[k].redistribution);
-    const double end = interval.time + 1e-9 * parameters.immobilisation_window;
-    double begin = result.profiles[k + 1 - window.size()].time;
-    while (window.size() > 1 && end - result.profiles[k + 2 - window.size()].time >= parameters.immobilisation_window) {
-      window.pop_front();
-      begin = result.profiles[k + 1 - window.size()].time;
-    }
+    const bool shrunk = add_to_window(window, measured[k].redistribution, parameters.immobilisation_shrinkage);
     interval.redistribution = redistribution_ratio(window);
-    if (!result.immobilisation_time && end - begin >= parameters.immobilisation_window &&
-        interval.redistribution < parameters.immobilisation_ratio)
+    if (!result.immobilisation_time && shrunk && interval.redistribution < parameters.immobilisation_ratio)
       result.immobilisation_time = interval.time;
   }
   return result;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/gap_guess.h"
 #include "forces/surface_spring.h"
 #include "resistance/scene_resistance.h"
 
@@ -262,15 +261,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
-      const bool refined = guess != gap_begin_[p];
-      bool off = off_guess(gap, guess, refined);
-      const double linear_part = std::max(stiffness_[c][p - topology_.pair_begin(c)], 0.0) * (guess - gap);
-      if (!off && !refined && std::abs(linear_part) > 10) {
-        const StepForce force = pair_step_force(p);
-        const double tangent = force.tangent(gap);
-        off = std::abs(force(gap) - tangent) > 0.2 * std::abs(tangent) + 10;
-      }
-      if (off) {
+      if (off_guess(gap, guess, guess != gap_begin_[p])) {
         const StepForce force = pair_step_force(p);
         const double next = next_gap(gap, guess, force.tangent(gap), force);
         guess = bracket_[p].take(next, guess);

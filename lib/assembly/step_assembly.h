@@ -10,10 +10,11 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/gap_guess.h"
 #include "assembly/interactions.h"
-#include "assembly/step_force.h"
 #include "assembly/rough_substrate.h"
 #include "assembly/slice_flow.h"
+#include "assembly/step_force.h"
 #include "assembly/surface_search.h"
 #include "model/particles.h"
 #include "neighbours/neighbour_list.h"

@@ -8,7 +8,7 @@ namespace pigment {
 Redistribution redistribution_between(const Vec3Array& before, const Vec3Array& after, const std::vector<double>& radius,
                                       double height_before, double height_after) {
   constexpr int n = redistribution_slices;
-  Redistribution r{std::vector<double>(n, 0.0), height_before - height_after};
+  Redistribution r{std::vector<double>(n, 0.0), height_before - height_after, height_before};
   std::vector<double> volume(n, 0.0);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const double z = before[k].z(), share = std::pow(radius[k], 3);
@@ -31,6 +31,17 @@ double redistribution_ratio(const std::deque<Redistribution>& intervals) {
   double square = 0;
   for (double s : sum) square += s * s;
   return std::sqrt(square / redistribution_slices) / fall;
+}
+
+bool add_to_window(std::deque<Redistribution>& window, Redistribution interval, double shrinkage) {
+  window.push_back(std::move(interval));
+  double fall = 0;
+  for (const Redistribution& r : window) fall += r.fall;
+  while (window.size() > 1 && fall - window.front().fall >= shrinkage * window[1].height) {
+    fall -= window.front().fall;
+    window.pop_front();
+  }
+  return fall >= shrinkage * window.front().height;
 }
 
 }  // namespace pigment

@@ -15,6 +15,7 @@ namespace pigment {
 struct Redistribution {
   std::vector<double> residual;  // um, one a slice: mean over its solid volume of dz - z dH/H
   double fall = 0;               // um, -dH
+  double height = 0;             // um, H before
 };
 inline constexpr int redistribution_slices = 10;
 
@@ -24,5 +25,10 @@ Redistribution redistribution_between(const Vec3Array& before, const Vec3Array& 
 
 // Root mean square over the slices of the summed residuals, over the summed fall; 1 where the layer did not fall.
 double redistribution_ratio(const std::deque<Redistribution>&);
+
+// The intervals in which mass is watched: the last ones, as many as it takes for the layer to shrink by a given share of its height.
+// A time would be another share of a thin layer's life than of a thick one's. Adds one interval and drops what is no longer
+// needed; says whether the layer has shrunk that much.
+bool add_to_window(std::deque<Redistribution>& window, Redistribution interval, double shrinkage);
 
 }  // namespace pigment

@@ -122,7 +122,10 @@ std::vector<ObservableName> observable_names(const assembly::Interactions& inter
 std::string consolidate(const Problem& problem, const RunSettings& settings, RunState& state, const RunCallbacks& callbacks) {
   Stepper stepper(problem, state);
   const bool surface = problem.interactions.free_surface.has_value();
-  const auto window = static_cast<std::size_t>(std::max(1.0, std::ceil(problem.stepping.immobile_window / settings.output_every - 1e-9)));
+  const double critical_pressure = problem.interactions.pressure_limited() ? std::numeric_limits<double>::infinity()
+                                                                           : problem.stepping.critical_pressure.value_or(
+                                                                                 default_critical_pressure(problem.interactions.liquid));
+  bool shrunk = false;  // by a whole window of immobility
   const auto drift_window = static_cast<std::size_t>(std::max(5.0, std::ceil(problem.stepping.stationary_window / settings.output_every - 1e-9)));
   const bool until_stationary = problem.stepping.stop_when == SteppingParameters::StopWhen::Stationary;
   const double steady_from = problem.dewatering.steady_from();
@@ -130,11 +133,10 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
   const auto store_frame = [&] {
     const double drained = stepper.height_at(state.time), height = lags ? state.surface_height : drained;
     if (state.frame > 0) {
-      state.redistribution.push_back(redistribution_between(state.frame_position, state.position, problem.particles.radius,
-                                                            state.frame_height, height));
+      Redistribution last = redistribution_between(state.frame_position, state.position, problem.particles.radius, state.frame_height, height);
       // A surface that lags is held against what the dewatering takes.
-      if (lags) state.redistribution.back().fall = stepper.height_at(static_cast<double>(state.frame - 1) * settings.output_every) - drained;
-      if (state.redistribution.size() > window) state.redistribution.pop_front();
+      if (lags) last.fall = stepper.height_at(static_cast<double>(state.frame - 1) * settings.output_every) - drained;
+      shrunk = add_to_window(state.redistribution, std::move(last), problem.stepping.immobile_shrinkage);
     }
     const std::vector<double> observables = observe(problem, state, height, drained);
     if (until_stationary && state.time >= steady_from) {
@@ -160,10 +162,12 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
       if (callbacks.on_step && callbacks.on_step(state)) return "interrupted";
     // Rounding may leave a sliver that no step can resolve: the frame is then reached.
     const double left = next_frame - state.time;
+    bool critical = false;
     if (left > 1e-12 * settings.until) {
       const StepReport report = stepper.advance(state, left);
       if (report.step == left) state.time = next_frame;
       add_step(state.interval, report);
+      critical = surface && report.pressures.surface > critical_pressure;
       if (callbacks.on_progress)
         callbacks.on_progress(state.time / settings.until,
                               fmt::format("t {:.4f} s, dt {:.3g} ms, {} iterations{}", state.time * 1e-3, report.step, report.iterations,
@@ -171,13 +175,14 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
     } else {
       state.time = next_frame;
     }
-    if (state.time < next_frame) continue;
+    if (state.time < next_frame && !critical) continue;
     const std::vector<double> observables = store_frame();
+    if (critical) return "first_critical_concentration";  // within a frame: the pressure of a jam would end all steps before the next
     if (is_stationary(state.mass_centre, drift_window, problem.stepping.stationary_tolerance)) return "stationary";
     if (!surface) continue;
     if (observables[static_cast<int>(Observable::ProtrudingFraction)] > problem.stepping.protruding_limit)
       return "first_critical_concentration";
-    if (problem.stepping.stop_when == SteppingParameters::StopWhen::Immobile && state.redistribution.size() == window &&
+    if (problem.stepping.stop_when == SteppingParameters::StopWhen::Immobile && shrunk &&
         observables[static_cast<int>(Observable::Redistribution)] < problem.stepping.immobile_rate)
       return "immobile";
   }

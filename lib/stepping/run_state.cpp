@@ -21,7 +21,7 @@ Vec3Array vectors(const std::vector<double>& f) {
 std::map<std::string, std::vector<double>> RunState::arrays() const {
   std::vector<double> redistributions;
   for (const Redistribution& r : redistribution) {
-    redistributions.push_back(r.fall);
+    redistributions.insert(redistributions.end(), {r.fall, r.height});
     redistributions.insert(redistributions.end(), r.residual.begin(), r.residual.end());
   }
   return {{"scalars", {time, preferred_step, last_step, frame_height, list_temperature, surface_height, surface_velocity}},
@@ -63,9 +63,9 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.list_reference = vectors(a.at("list_reference"));
   s.frame_position = vectors(a.at("frame_position"));
   const std::vector<double>& redistributions = a.at("redistribution");
-  for (std::size_t k = 0; k + redistribution_slices < redistributions.size(); k += redistribution_slices + 1) {
+  for (std::size_t k = 0; k + redistribution_slices + 1 < redistributions.size(); k += redistribution_slices + 2) {
     const auto first = redistributions.begin() + static_cast<std::ptrdiff_t>(k);
-    s.redistribution.push_back({{first + 1, first + 1 + redistribution_slices}, *first});
+    s.redistribution.push_back({{first + 2, first + 2 + redistribution_slices}, first[0], first[1]});
   }
   const std::vector<double>& centres = a.at("mass_centre");
   s.mass_centre.assign(centres.begin(), centres.end());

@@ -199,7 +199,7 @@ Frames shrinking_layer(const RandomLayer& layer, std::size_t still, double own) 
 TEST(Immobilisation, IsWhenMassNoLongerMovesBetweenHeights) {
   const RandomLayer layer = random_layer(1500);
   Parameters parameters;
-  parameters.immobilisation_window = 4;  // two intervals
+  parameters.immobilisation_shrinkage = 0.015;  // two intervals
   const SolidsDevelopment development = follow_solids(shrinking_layer(layer, 6, 0.02), layer.solids, parameters);
   ASSERT_EQ(development.profiles.size(), 11u);
   ASSERT_EQ(development.intervals.size(), 10u);
@@ -222,7 +222,7 @@ TEST(Immobilisation, IsWhenMassNoLongerMovesBetweenHeights) {
 TEST(Immobilisation, IsNotReportedWhileParticlesMoveOrTheSurfaceRests) {
   const RandomLayer layer = random_layer(1500);
   Parameters parameters;
-  parameters.immobilisation_window = 4;
+  parameters.immobilisation_shrinkage = 0.015;
   EXPECT_FALSE(follow_solids(shrinking_layer(layer, 10, 0.02), layer.solids, parameters).immobilisation_time);
   Frames resting{5, [&](std::size_t k) {
                    Snapshot s = layer.frame;

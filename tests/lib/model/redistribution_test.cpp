@@ -26,6 +26,24 @@ Spheres spheres(double height) {
   return s;
 }
 
+// Ten intervals in which a layer of 10 um falls by 0.1 um each: 3 % of the height at a window's beginning are 0.30 um at first and
+// 0.28 in the end, three intervals each.
+TEST(Redistribution, WindowHoldsWhatTheLayerNeedsToShrinkByAShare) {
+  std::deque<Redistribution> window;
+  double height = 10;
+  for (int k = 0; k < 10; ++k, height -= 0.1) {
+    const bool whole = add_to_window(window, {std::vector<double>(redistribution_slices, k), 0.1, height}, 0.03 - 1e-12);
+    EXPECT_EQ(whole, k >= 2);
+    EXPECT_EQ(window.size(), static_cast<std::size_t>(std::min(k + 1, 3)));
+    EXPECT_EQ(window.back().residual[0], k);
+  }
+  // One that takes it all at once is a window by itself; one that rests adds nothing.
+  EXPECT_TRUE(add_to_window(window, {std::vector<double>(redistribution_slices, 0), 0.5, 9}, 0.03));
+  EXPECT_EQ(window.size(), 1u);
+  EXPECT_TRUE(add_to_window(window, {std::vector<double>(redistribution_slices, 0), 0, 8.5}, 0.03));
+  EXPECT_EQ(window.size(), 2u);
+}
+
 }  // namespace
 
 TEST(Redistribution, IsNothingInALayerThatShrinksEvenly) {

@@ -48,6 +48,7 @@ RunState full_state() {
     Redistribution part;
     for (int b = 0; b < redistribution_slices; ++b) part.residual.push_back(awkward(r + b));
     part.fall = awkward(r + 3);
+    part.height = awkward(r + 4);
     s.redistribution.push_back(part);
   }
   s.mass_centre = {1.5, 1.0 / 3};
@@ -62,7 +63,7 @@ template <typename Container>
 bool same(const Container& a, const Container& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return same(x, y); });
 }
-bool same(const Redistribution& a, const Redistribution& b) { return same(a.residual, b.residual) && same(a.fall, b.fall); }
+bool same(const Redistribution& a, const Redistribution& b) { return same(a.residual, b.residual) && same(a.fall, b.fall) && same(a.height, b.height); }
 
 // Every member: one that is added and forgotten here does not compile.
 void expect_same(const RunState& a, const RunState& b) {

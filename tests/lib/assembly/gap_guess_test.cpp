@@ -1,0 +1,74 @@
+#include "assembly/gap_guess.h"
+
+#include <gtest/gtest.h>
+
+namespace pigment::assembly {
+namespace {
+
+// A Born wall with a well before it, 1/h^8 - 1/h^2 in units in which they are equal at 1, among surroundings that answer a force f with
+// the gap rest + f/stiffness; and Newton's method as the engine has it, tangents without negative stiffness.
+struct OnePair {
+  double rest, stiffness;
+
+  static double force(double h) { return std::pow(h, -8) - std::pow(h, -2); }
+  static double slope(double h) { return std::max(8 * std::pow(h, -9) - 2 * std::pow(h, -3), 0.0); }
+  // Passes until the gap is what the force was linearised about; 100 where it never is.
+  int passes(double guess, double& gap) const {
+    GapBracket bracket;
+    for (int pass = 1; pass < 100; ++pass) {
+      const double k = slope(guess), f = force(guess);
+      gap = (rest * stiffness + f + k * guess) / (stiffness + k);
+      if (!off_guess(gap, guess, true)) return pass;
+      guess = bracket.take(next_gap(gap, guess, f + k * (guess - gap), [](double h) { return force(h); }), guess);
+    }
+    return 100;
+  }
+};
+
+// Soft surroundings that press with 10, 100, 1000 from a gap of 30: the force is imposed, and its gap on the wall known.
+TEST(NextGap, FindsTheWallUnderAnImposedForceInAFewPasses) {
+  for (double load : {10.0, 100.0, 1000.0}) {
+    const double stiffness = 1e-3, rest = 1 - load / stiffness;
+    double gap = 0;
+    EXPECT_LE((OnePair{rest, stiffness}.passes(30, gap)), 6) << load;
+    EXPECT_NEAR(gap, std::pow(load, -1.0 / 8), 0.05);  // the well's 1/h^2 and the criterion of 5 %
+  }
+}
+
+// Stiff surroundings impose the gap.
+TEST(NextGap, TakesAnImposedGap) {
+  for (double rest : {0.8, 1.2, 5.0}) {
+    double gap = 0;
+    EXPECT_LE((OnePair{rest, 1e6}.passes(20, gap)), 6) << rest;
+    EXPECT_NEAR(gap, rest, 1e-4 * rest);
+  }
+}
+
+// From deep inside the wall, where plain iterations come out by an eighth of the gap at a time.
+TEST(NextGap, ComesOutOfAWallInAFewPasses) {
+  double gap = 0;
+  EXPECT_LE((OnePair{1 - 1e3, 1e-2}.passes(0.2, gap)), 7);  // load 10
+  EXPECT_NEAR(gap, std::pow(10.0, -1.0 / 8), 0.05);
+}
+
+// Between closed and open the well has no tangent that leads to the solution, and plain iterations go from one side to the other for ever.
+TEST(NextGap, SettlesInAWell) {
+  for (double pull : {0.0, 0.1, 0.2, 0.3, 0.4})
+    for (double stiffness : {0.01, 0.1, 1.0})
+      for (double guess : {0.7, 1.1, 1.5, 3.0}) {
+        double gap = 0;
+        EXPECT_LT((OnePair{1.1 + pull / stiffness, stiffness}.passes(guess, gap)), 25) << pull << " " << stiffness << " " << guess;
+        EXPECT_GT(gap, 0);
+      }
+}
+
+TEST(GapBracket, HalvesWhatLeavesIt) {
+  GapBracket bracket;
+  EXPECT_EQ(bracket.take(2, 1), 2);              // the solution lies above 1
+  EXPECT_NEAR(bracket.take(0.5, 2), std::sqrt(2.0), 1e-6);  // and below 2
+  EXPECT_EQ(bracket.take(1.2, 1.4), 1.2);
+  EXPECT_NEAR(bracket.take(5, 1.2), std::sqrt(1.2 * 1.4), 1e-6);
+}
+
+}  // namespace
+}  // namespace pigment::assembly
