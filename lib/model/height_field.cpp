@@ -1,6 +1,7 @@
 #include "model/height_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -47,6 +48,12 @@ std::size_t wrapped(long i, std::size_t n) {
   return static_cast<std::size_t>(r < 0 ? r + m : r);
 }
 
+std::array<std::size_t, 4> four_from(long first, std::size_t n) {
+  std::array<std::size_t, 4> at{wrapped(first, n)};
+  for (int a = 1; a < 4; ++a) at[a] = at[a - 1] + 1 == n ? 0 : at[a - 1] + 1;
+  return at;
+}
+
 }  // namespace
 
 HeightField::HeightField(HeightMap map, const Cell& cell) : map_(std::move(map)) {
@@ -90,22 +97,29 @@ double HeightField::extremum(std::size_t at) const {
 
 double HeightField::resolution() const { return std::max(step_x_, step_y_); }
 
-double HeightField::height(double x, double y) const { return local(x, y).z; }
+double HeightField::height(double x, double y) const {
+  const double u = x * static_cast<double>(map_.count_x) / map_.period_x, v = y * static_cast<double>(map_.count_y) / map_.period_y;
+  const double at_u = std::floor(u), at_v = std::floor(v);
+  const Basis bx = basis_at(u - at_u), by = basis_at(v - at_v);
+  const auto row = four_from(static_cast<long>(at_u) - 1, map_.count_x), column = four_from(static_cast<long>(at_v) - 1, map_.count_y);
+  double z = 0;
+  for (int a = 0; a < 4; ++a) {
+    const double* c = &coefficient_[row[a] * map_.count_y];
+    z += bx.value[a] * (by.value[0] * c[column[0]] + by.value[1] * c[column[1]] + by.value[2] * c[column[2]] + by.value[3] * c[column[3]]);
+  }
+  return z;
+}
 
 HeightField::Local HeightField::local(double x, double y) const {
   const double per_x = static_cast<double>(map_.count_x) / map_.period_x, per_y = static_cast<double>(map_.count_y) / map_.period_y;
   const double u = x * per_x, v = y * per_y, at_u = std::floor(u), at_v = std::floor(v);
   const Basis bx = basis_at(u - at_u), by = basis_at(v - at_v);
-  std::size_t row[4], column[4];
-  for (long a = 0; a < 4; ++a) {
-    row[a] = wrapped(static_cast<long>(at_u) + a - 1, map_.count_x) * map_.count_y;
-    column[a] = wrapped(static_cast<long>(at_v) + a - 1, map_.count_y);
-  }
+  const auto row = four_from(static_cast<long>(at_u) - 1, map_.count_x), column = four_from(static_cast<long>(at_v) - 1, map_.count_y);
   Local s{};
   for (int a = 0; a < 4; ++a) {
     double value = 0, first = 0, second = 0;
     for (int b = 0; b < 4; ++b) {
-      const double c = coefficient_[row[a] + column[b]];
+      const double c = coefficient_[row[a] * map_.count_y + column[b]];
       value += by.value[b] * c;
       first += by.first[b] * c;
       second += by.second[b] * c;
@@ -135,8 +149,8 @@ double HeightField::half_squared_distance(double x, double y, const Vec3& p) con
   return 0.5 * (dx * dx + dy * dy + dz * dz);
 }
 
-// Newton's method on half the squared distance; where that is not convex, or a step does not bring it down, down the gradient,
-// halved until it does.
+// Newton's method on half the squared distance, its Hessian made positive where it is not (there a foot is about to vanish), each step
+// halved until it brings the distance down.
 HeightField::Foot HeightField::descend(double x, double y, const Vec3& p) const {
   const double inside = p.z() < height(p.x(), p.y()) ? -1 : 1;
   double value = half_squared_distance(x, y, p);
@@ -144,12 +158,9 @@ HeightField::Foot HeightField::descend(double x, double y, const Vec3& p) const 
     const Local s = local(x, y);
     const double depth = s.z - p.z(), gx = x - p.x() + depth * s.gx, gy = y - p.y() + depth * s.gy;
     const double hxx = 1 + s.gx * s.gx + depth * s.hxx, hyy = 1 + s.gy * s.gy + depth * s.hyy, hxy = s.gx * s.gy + depth * s.hxy;
-    const double determinant = hxx * hyy - hxy * hxy;
-    double dx = -gx, dy = -gy;
-    if (hxx > 0 && determinant > 1e-6 * hxx * hyy) {
-      dx = -(hyy * gx - hxy * gy) / determinant;
-      dy = -(hxx * gy - hxy * gx) / determinant;
-    }
+    const double smallest = 0.5 * (hxx + hyy) - std::hypot(0.5 * (hxx - hyy), hxy), shift = std::max(0.0, 1e-4 - smallest);
+    const double determinant = (hxx + shift) * (hyy + shift) - hxy * hxy;
+    double dx = -((hyy + shift) * gx - hxy * gy) / determinant, dy = -((hxx + shift) * gy - hxy * gx) / determinant;
     const double length = std::hypot(dx, dy), longest = 2 * resolution();
     if (length > longest) {
       dx *= longest / length;

@@ -123,6 +123,17 @@ class Renderer {
     }
   }
 
+  void meet_substrate(const Ray& ray, const Interval& kept, Hit& hit) const {
+    for (const Box& box : scene_.substrate) {
+      Interval inside = through_box(ray, box);
+      if (kept.begin > inside.begin && kept.begin > -infinity) inside = {kept.begin, inside.end, 3 + kept.begin_face};
+      inside.end = std::min({inside.end, kept.end, hit.distance});
+      if (ground_ && inside.begin < inside.end && !ground_->below(ray.origin + (inside.begin + 1e-9) * ray.direction))
+        inside = {ground_->entry(ray, inside), inside.end, 2};
+      if (inside.begin < inside.end) hit = {inside.begin, substrate_object(), inside.begin_face};
+    }
+  }
+
   void draw_tile(int tile, Image& image) const {
     const int n = settings_.samples;
     const int x0 = tile % tiles_x_ * tile_size, y0 = tile / tiles_x_ * tile_size;
@@ -137,15 +148,7 @@ class Renderer {
         const auto i = static_cast<std::size_t>(row * columns + column);
         rays[i] = ray_through(camera_, settings_, x0 + (column + 0.5) / n, y0 + (row + 0.5) / n);
         kept[i] = kept_part(rays[i], scene_.cuts, camera_.eye_distance > 0);
-        for (const Box& box : scene_.substrate) {
-          Interval inside = through_box(rays[i], box);
-          if (kept[i].begin > inside.begin && kept[i].begin > -infinity)
-            inside = {kept[i].begin, inside.end, 3 + kept[i].begin_face};
-          inside.end = std::min(inside.end, kept[i].end);
-          if (ground_ && inside.begin < inside.end && !ground_->below(rays[i].origin + (inside.begin + 1e-9) * rays[i].direction))
-            inside = {ground_->entry(rays[i], inside), inside.end, 2};
-          if (inside.begin < inside.end) hits[i] = {inside.begin, substrate_object(), inside.begin_face};
-        }
+        if (!ground_) meet_substrate(rays[i], kept[i], hits[i]);
       }
     for (const int object : tile_objects_[static_cast<std::size_t>(tile)]) {
       const PixelBounds& b = bounds_[static_cast<std::size_t>(object)];
@@ -168,6 +171,8 @@ class Renderer {
             hits[i] = {distance, object, on_cut ? kept[i].begin_face : -1};
         }
     }
+    if (ground_)  // last: what a particle hides need not be sought
+      for (std::size_t i = 0; i < count; ++i) meet_substrate(rays[i], kept[i], hits[i]);
     for (int y = 0; y < rows / n; ++y)
       for (int x = 0; x < columns / n; ++x) {
         const auto bytes = to_srgb(pixel(x0 + x, y0 + y, x * n, y * n, columns, rays, kept, hits));

@@ -103,6 +103,26 @@ TEST(HeightField, FeetAreThoseThatAFineGridFinds) {
   EXPECT_GT(several, 20);  // many of these points hang over a valley between several slopes
 }
 
+// Over the middle of a groove, at its radius of curvature and on either side of it, one foot parts into two: the distance is flat there.
+TEST(HeightField, FeetAreNormalWhereTheyPart) {
+  HeightMap groove{12, 1, 1, 1, {}};
+  for (int i = 0; i < 12; ++i) groove.height.push_back(0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / 12));
+  const HeightField field(groove, Cell{1, 1, 10});
+  const double radius = 1 / (0.5 * std::pow(2 * std::numbers::pi, 2));  // of the cosine; the spline's is 2 % less
+  for (const double off : {0.0, 1e-9, 1e-6, 1e-3})
+    for (double z = 0.5 * radius; z < 4 * radius; z += 0.02 * radius) {
+      const Vec3 p(off, 0.3, z);
+      const auto feet = field.feet(p, 2 * z);
+      ASSERT_FALSE(feet.empty());
+      for (const auto& foot : feet) {
+        const Vec3 at(foot.x, foot.y, field.height(foot.x, foot.y));
+        EXPECT_LT((p - at - foot.distance * foot.normal).norm(), 1e-6 * z) << z / radius << " " << off;
+        const auto again = field.follow(foot, p + Vec3(0, 0, 1e-12));
+        EXPECT_NEAR(again.distance, foot.distance, 1e-9);
+      }
+    }
+}
+
 TEST(HeightField, APointInsideHasANegativeDistance) {
   const HeightField field(rough, cell);
   for (double depth : {0.01, 0.1, 0.3, 0.8}) {
