@@ -8,6 +8,7 @@
 #include <random>
 
 #include "assembly/step_assembly.h"
+#include "model/layer_measures.h"
 #include "resistance/scene_resistance.h"
 #include "resistance/source_forms.h"
 #include "solve/conjugate_gradients.h"
@@ -200,11 +201,15 @@ TEST(RoughSubstrate, TheSourcesRidgeIsACornerAndItsValleyAWall) {
   }
 }
 
-// What substrate and liquid push up with is what the surface and gravity push down with, whatever the accuracy of the contacts.
-TEST(RoughSubstrate, BoundaryPressuresBalanceTheForces) {
-  for (const auto suction : {forces::SubstrateParameters::Suction::Impermeable, forces::SubstrateParameters::Suction::Uniform}) {
-    FirstStep layer(height_map({0.8, 1.3, {}}));
+namespace {
+
+// Sixty spheres in 3 um of liquid over waves, absorbed and evaporated, and the velocities that the step comes to.
+struct Drained {
+  FirstStep layer{height_map({0.8, 1.3, {}})};
+  std::vector<double> u;
+  explicit Drained(forces::SubstrateParameters::Suction suction, resistance::HydrodynamicsParameters::Drag drag) {
     layer.interactions.substrate->suction = suction;
+    layer.interactions.hydrodynamics.drag = drag;
     layer.colloidal("{electrostatic: {debye_length: 5 nm}, van_der_waals: {}, born: {}}");
     layer.interactions.free_surface.emplace();
     layer.film = {3.0, 2.999, 0, 0.05, 0.05};
@@ -217,15 +222,49 @@ TEST(RoughSubstrate, BoundaryPressuresBalanceTheForces) {
       if (free) layer.add(0.25, p);
     }
     layer.build(1e-3);
-    std::vector<double> u;
     for (int pass = 0; pass < 25; ++pass) {
-      ASSERT_TRUE(solve::conjugate_gradients(layer.system, u, {1e-13, 5000}).converged);
+      EXPECT_TRUE(solve::conjugate_gradients(layer.system, u, {1e-13, 5000}).converged);
       if (!layer.step->refine(layer.system, u).refine) break;
       layer.step->build(layer.system);
     }
-    const assembly::BoundaryPressures p = layer.step->boundary_pressures(u);
+  }
+};
+
+}  // namespace
+
+// What substrate and liquid push up with is what the surface and gravity push down with, whatever the accuracy of the contacts.
+TEST(RoughSubstrate, BoundaryPressuresBalanceTheForces) {
+  for (const auto suction : {forces::SubstrateParameters::Suction::Impermeable, forces::SubstrateParameters::Suction::Uniform}) {
+    const Drained drained(suction, resistance::HydrodynamicsParameters::Drag::Stokes);
+    const assembly::BoundaryPressures p = drained.layer.step->boundary_pressures(drained.u);
     // The solve's residual, and the cancellation of terms a thousand times the sum.
     EXPECT_NEAR(p.surface, p.substrate + p.liquid, 1e-8 * (std::abs(p.surface) + std::abs(p.substrate) + std::abs(p.liquid)));
     EXPECT_GT(std::abs(p.substrate), 0.01 * std::abs(p.liquid));
   }
+}
+
+// With hindered drag a slice is what lies above the surface: solids over that space, volume conserved there, and the pressure drop
+// acts on its part of the area.
+TEST(RoughSubstrate, SlicesOfHinderedDragHoldTheSpaceAboveTheSurface) {
+  const Drained drained(forces::SubstrateParameters::Suction::Impermeable, resistance::HydrodynamicsParameters::Drag::Hindered);
+  const FirstStep& layer = drained.layer;
+  const auto slices = layer.step->slice_states(drained.u);
+  const std::vector<double> edges = equal_slices(3.0, static_cast<int>(slices.size()));
+  ASSERT_GT(slices.size(), 3u);
+  const std::vector<double> solids = slice_volumes(edges, layer.position, layer.particles.radius);
+  double carried = 0;
+  for (std::size_t s = 0; s < slices.size(); ++s) {
+    double space = 0;  // by midpoints over the surface, which the field's own sum is 1 % off at most
+    const int n = 400;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double h = layer.field().height(4.0 * (i + 0.5) / n, 4.0 * (j + 0.5) / n);
+        space += 16.0 / (n * n) * (std::max(0.0, edges[s + 1] - h) - std::max(0.0, edges[s] - h));
+      }
+    EXPECT_NEAR(slices[s].solids_fraction, solids[s] / space, 0.01 * solids[s] / space);
+    EXPECT_NEAR(slices[s].solids_flux + (1 - slices[s].solids_fraction) * slices[s].liquid_velocity, -0.05, 1e-12);
+    carried += slices[s].pressure_drop * 16.0 * (layer.field().space_below(edges[s + 1]) - layer.field().space_below(edges[s])) / (edges[s + 1] - edges[s]);
+  }
+  const assembly::BoundaryPressures p = layer.step->boundary_pressures(drained.u);
+  EXPECT_NEAR(p.surface, p.substrate + carried / 16.0, 1e-8 * (std::abs(p.surface) + std::abs(p.substrate) + std::abs(carried)));
 }
