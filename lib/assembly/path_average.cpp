@@ -144,8 +144,6 @@ void StepAssembly::follow_path(int chunk, const std::vector<double>& u, GapCheck
     if (!path_resistance_) continue;
     normal_[p] = (separation_[p] + d).normalized();
     resistance_gap_[p] = 0.5 * (gap_begin_[p] + guess);
-    if (lubrication)
-      scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], resistance_gap_[p]);
   }
   for (int k = topology_.chunks().begin[chunk]; k < topology_.chunks().begin[chunk + 1]; ++k) {
     const double a = radius_[k], begin = position_[k].z() - a;

@@ -148,9 +148,11 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
     double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_begin_[p]));
     const std::int32_t target = topology_.target(p);
+    const double at = resistance_gap_[p];
+    if (path_resistance_ && passes_ > 0 && interactions_.lubrication())
+      scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);
     const resistance::PairScalars& s = scalars_[p];
     double viscous = s.squeeze;
-    const double at = resistance_gap_[p];
     if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
       const forces::PairGeometry& g = geometry_[p];
       const double weight = squeeze_weight(p);

@@ -50,9 +50,9 @@ assembly::Film StepContext::film(const StepStart& start) const {
 
 void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
   neighbours::PairRange range = assembly::pair_range(problem_.interactions, liquid);
-  // A wider skin lists more pairs and lasts longer. Noise shakes every particle at every step and spends it sooner.
+  // A wider skin lists more pairs and lasts longer.
   const double smallest = *std::min_element(problem_.particles.radius.begin(), problem_.particles.radius.end());
-  range.skin = std::max(0.02, (problem_.interactions.brownian ? 0.8 : 0.4) * smallest);
+  range.skin = std::max(0.02, 0.4 * smallest);
   list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
   assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);
   id_.resize(list_.order.size());
