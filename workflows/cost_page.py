@@ -1,7 +1,9 @@
-"""Prints docs/cost.md: what the runs of each study took, beside the forecast of pigment-scene: cost_page.py RESULTS STUDY...
+"""Prints docs/cost.md: what each study took, beside the forecast of pigment-scene for its runs: cost_page.py RESULTS STUDY...
 
-A run's seconds and threads stand in CASE/.made/took (workflows/rules.mk), its forecast in CASE/scene.yaml.
+A stage's seconds, CPU seconds and threads stand in CASE/.made/STAGE.took (timed.py), those of single measured commands in *.json (measured.py), a run's forecast
+in CASE/scene.yaml. Counted are the cases that the study's claims were last decided with.
 """
+import json
 import os
 import pathlib
 import re
@@ -15,31 +17,56 @@ def duration(seconds):
     return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.1f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
-rows, missing = [], []
+def took(path):
+    return float(path.read_text().split()[1])
+
+
+def measured(folder, size):
+    """CPU seconds of the commands that measured.py ran for this size; results of the other stand in a folder of its name."""
+    other = {"quick": "full", "full": "quick"}.get(size)
+    total = 0
+    for path in sorted(folder.rglob("*.json")):
+        record = json.loads(path.read_text())
+        if other not in path.relative_to(folder).parts and isinstance(record, dict):
+            total += record.get("cpu_seconds", 0)
+    return total
+
+
+rows, everything = [], 0
 for study in studies:
+    folder = results / study
+    settings = folder / ".made" / "claims.settings"
+    size, *cases = settings.read_text().split("/")[0].split() if settings.exists() else ("", *(p.name for p in sorted(folder.glob("*")) if p.is_dir()))
+    stages = [s for case in cases for s in sorted((folder / case / ".made").glob("*.took"))]
+    rest = measured(folder, size)
+    own = folder / ".made" / "claims.took"
+    rest += took(own) if own.exists() else 0
     runs = []
-    for took in sorted((results / study).glob("*/.made/took")):
-        scene = took.parent.parent / "scene.yaml"
+    for path in stages:
+        scene = path.parent.parent / "scene.yaml"
         forecast = re.search(r"#\s+(\d+) particles.*?([\d.]+) (\w+) on one core", scene.read_text()) if scene.exists() else None
-        if forecast and forecast[3] in SECONDS:
-            seconds, threads = took.read_text().split()
-            runs.append((int(forecast[1]), float(forecast[2]) * SECONDS[forecast[3]], int(seconds), threads))
+        if path.stem == "consolidate" and forecast and forecast[3] in SECONDS:
+            runs.append((int(forecast[1]), float(forecast[2]) * SECONDS[forecast[3]], took(path)))
+    total = sum(map(took, stages)) + rest
+    if not total:
+        continue
+    everything += total
+    line = f"| {study} | {size} | "
     if runs:
-        ratios = [took / forecast for _, forecast, took, _ in runs]
-        threads = {t for *_, t in runs}
-        rows.append(f"| {study} | {len(runs)} | {min(r[0] for r in runs)}–{max(r[0] for r in runs)} | {duration(sum(r[1] for r in runs))} | {duration(sum(r[2] for r in runs))} | "
-                    f"{min(ratios):.2f}–{max(ratios):.2f} | {' or '.join(sorted(threads))} |")
-    elif (results / study).is_dir():
-        missing.append(study)
+        ratios = [cpu / forecast for _, forecast, cpu in runs]
+        line += (f"{len(runs)} | {min(r[0] for r in runs)}–{max(r[0] for r in runs)} | {duration(sum(r[1] for r in runs))} | {duration(sum(r[2] for r in runs))} | "
+                 f"{min(ratios):.2f}–{max(ratios):.2f} | ")
+    else:
+        line += "| | | | | "
+    rows.append(line + duration(total) + " |")
 print(f"""# Cost
 
-What the consolidation runs of each study took, beside what `pigment-scene` forecasts for one core. `make cost` writes this page
-from the studies that have been run, here on a machine with {os.cpu_count()} cores; times mean something where nothing else ran beside
-them. Times are of the clock, with the threads given; a run that was stopped and gone on with counts from its last start. The
-forecast is for a run to its `until`; one that comes to rest before takes less.
+What each study took in CPU time, all that it ran taken together, beside what `pigment-scene` forecasts for its consolidation runs on
+one core. `make cost` writes this page from the studies that have been run, here on a machine with {os.cpu_count()} cores. CPU time
+hangs little on what else runs, but not nothing; a run that was stopped and gone on with counts from its last start. The forecast is for a run to its `until`; one
+that comes to rest before takes less.
 
-| study | runs | particles | forecast, one core | took | took over forecast, of single runs | threads |
-|---|---|---|---|---|---|---|""")
+| study | size | runs | particles | forecast | took | took over forecast, of single runs | the whole study |
+|---|---|---|---|---|---|---|---|""")
 print("\n".join(rows))
-if missing:
-    print(f"\nNo consolidation runs of their own: {', '.join(missing)}.")
+print(f"\nTogether {duration(everything)}: half of that of the clock on two cores, but for what runs one at a time.")

@@ -4,15 +4,22 @@
 #   p25               surface potential, mV (negative)     k5       Debye length, nm
 #   m2                viscosity of the liquid, mPa s       t7       surface tension, mN/m
 #   b                 with Brownian motion                 darcy    fluxes as written, not scaled to a final solids content
-#   limited           surface limited to 500 kPa           hard     evaporation twice as high while it is high
-#   open              a substrate ten times as permeable   e        in front: the strategy is a table, NAME.csv beside the scene
+#   limited           surface limited to 500 kPa           thesis   hydrodynamics as printed in the source
+#   h80               evaporation while it is high, g/m2/s l8       while it is low
+#   a10               permeability of the substrate's cake, 1e-18 m2
+#   n3                tolerance of the steps, in thousandths
+#   u0.2              the run ends at this time, s         e        in front: the strategy is a table, NAME.csv beside the scene
 # One absolute dewatering profile for all thicknesses: what takes 25 um to 88 wt-% in half a second, going on afterwards, so
 # that every layer comes to rest by itself.
-# From the command line: WIDTH (um), SEEDS (a list) in place of those of SIZE; both are in the names, so results never mix.
+# From the command line: WIDTH (um), SEEDS (a list) in place of those of SIZE, and VARY, further parts for every case ("h60 l10 u0.3"); all are
+# in the names, so results never mix.
 SIZE ?= quick
+empty :=
+space := $(empty) $(empty)
 full := $(filter full,$(SIZE))
 WIDTH ?= $(if $(full),5,4)
 SEEDS ?= 1 2 3
+piece := $(subst $(space),-,$(strip w$(WIDTH) $(VARY)))
 SCENE ?= ../drying/scene.yaml
 upper = $(shell echo '$(1)' | tr a-z A-Z)
 setting = $(or \
@@ -20,8 +27,12 @@ setting = $(or \
   $(if $(filter %um,$(1)),--set layer.thickness="$(1:%um=%) um"),\
   $(if $(filter b darcy,$(1)),),\
   $(if $(filter limited,$(1)),--set free_surface.model=pressure_limited --set free_surface.max="500 kPa"),\
-  $(if $(filter hard,$(1)),--set dewatering.evaporation.high="80 g/m2/s"),\
-  $(if $(filter open,$(1)),--set dewatering.absorption.permeability="1e-17 m2"),\
+  $(if $(filter thesis,$(1)),--set hydrodynamics.model=thesis),\
+  $(if $(filter u%,$(1)),),\
+  $(if $(filter h%,$(1)),--set dewatering.evaporation.high="$(1:h%=%) g/m2/s"),\
+  $(if $(filter l%,$(1)),--set dewatering.evaporation.low="$(1:l%=%) g/m2/s"),\
+  $(if $(filter a%,$(1)),--set dewatering.absorption.permeability="$(1:a%=%)e-18 m2"),\
+  $(if $(filter n%,$(1)),--set stepping.tolerance=$(1:n%=%)e-3),\
   $(if $(filter w%,$(1)),--set layer.width="$(1:w%=%) um"),\
   $(if $(filter s%,$(1)),--set seed=$(1:s%=%)),\
   $(if $(filter p%,$(1)),--set particles.0.surface_potential="-$(1:p%=%) mV"),\
@@ -31,21 +42,21 @@ setting = $(or \
 parts = $(subst -, ,$(1))
 table = $(filter e,$(firstword $(call parts,$(1))))
 whole_set = $(if $(call table,$(1)),--set dewatering.file=$(word 2,$(call parts,$(1))).csv) \
-  $(foreach t,$(if $(call table,$(1)),$(wordlist 3,9,$(call parts,$(1))),$(call parts,$(1))),$(call setting,$t)) \
+  $(foreach t,$(if $(call table,$(1)),$(wordlist 3,99,$(call parts,$(1))),$(call parts,$(1))),$(call setting,$t)) \
   $(if $(filter b,$(call parts,$(1))),,--set brownian=null) \
   $(if $(filter darcy,$(call parts,$(1))),--set dewatering.final_solids=null --set dewatering.reference_thickness=null,--set dewatering.reference_thickness="25 um") \
   $(if $(filter 10um,$(call parts,$(1))),--set output.every="2 ms") --set stepping.until="$(call until,$(1))"
-# At the rates of the thick layers one of 10 um is drained in a tenth of their time. Its runs end at about 81 wt-%: they come to no
-# rest, since one that is drained so fast jams at 83 wt-% before its particles have stopped moving against each other.
-until-hll := 0.064 s
-until-llh := 0.154 s
-until-abs := 0.044 s
-until-eva := 0.148 s
-# Likewise 20 um after 0.2 s, and after 0.12 s where the fluxes are not scaled down. Without Brownian motion the last hundredths of a second
-# of a layer that jams take most of the time of a run, so quick runs end before.
-until = $(if $(filter 10um,$(call parts,$(1))),$(until-$(firstword $(call parts,$(1)))),$(if $(filter darcy,$(call parts,$(1))),0.12 s,$(if \
-  $(and $(filter 20um,$(call parts,$(1))),$(filter-out b,$(lastword $(call parts,$(1))))),0.2 s,$(UNTIL))))
-UNTIL ?= $(if $(full),0.8 s,0.36 s)
+# Every run ends by itself, at rest or where the surface presses on packed particles. Three kinds of quick runs would take longer than a
+# minute of one core each and end before: layers of 10 um, drained in a tenth of the time of the thick ones and so never
+# at rest, which spend nine tenths of it on their last 3 ms, particles pressed together at 83 wt-%; those with Brownian motion,
+# whose steps are short at all times; and those with a double layer of 1 nm or less, which go on clustering beyond 84 wt-%.
+until-hll := 0.07
+until-llh := 0.18
+until-abs := 0.056
+until-eva := 0.166
+told = $(patsubst u%,%,$(filter u%,$(call parts,$(1))))
+quick_end = $(if $(full),,$(if $(filter 10um,$(call parts,$(1))),$(until-$(firstword $(call parts,$(1)))),$(if $(filter b k1 k0.5,$(call parts,$(1))),0.2)))
+until = $(or $(call told,$(1)),$(call quick_end,$(1)),0.8) s
 # $(call layers,CASES): what each changes and lacks. To be called before ../rules.mk is read.
 define layer_case
 set-$(1) := $(call whole_set,$(1)) $(ANALYSIS)

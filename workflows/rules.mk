@@ -63,6 +63,8 @@ each = $(foreach c,$(CASES),$(if $(call has,$(1),$c),$(RESULTS)/$c/$(1).$(2)))
 made = $(foreach c,$(CASES),$(if $(call has,$(1),$c),$(RESULTS)/$c/.made/$(1).$(2)))
 slices = $(CASES:%=$(RESULTS)/%/.made/$(1).yaml)
 tool = $(SUMS)/$(1).sum
+# What a heavy stage took stands in .made/STAGE.took (timed.py), for cost_page.py.
+timed = $(LAUNCH) /usr/bin/python3 $(WORKFLOWS)/timed.py $(@D)/.made/$(1).took $(BIN)/pigment-$(1)
 threads = $(if $(filter-out -j1,$(filter -j%,$(MAKEFLAGS))), --threads 1)
 replace_if_changed = $(WORKFLOWS)/replace_if_changed.sh
 
@@ -106,7 +108,9 @@ $(call as_it_is,$(TOOLS:%=$(SUMS)/%.sum)): %.sum: %.seen ; +$(look_again)
 settings = $(call scene_of,$(1)) $(subst ",,$(subst ',,$(set-$(1))))
 differ = $(subst x$(strip $(1)),,x$(strip $(2)))$(subst x$(strip $(2)),,x$(strip $(1)))
 other = $(if $(call differ,$(1),$(file < $(2))),FORCE)
-$(CASES:%=$(RESULTS)/%/.made/scene.seen): $(RESULTS)/%/.made/scene.seen: $$(call scene_of,$$*) $(call tool,scene) \
+# Tables that a scene names; its slices hold their checksums, so that another table's stage is made anew.
+tables = $(wildcard $(shell cd $(1) 2> /dev/null && grep -oh 'file: [^,}]*' *.yaml | sort -u | while read -r _ name; do realpath -m "$$name"; done))
+$(CASES:%=$(RESULTS)/%/.made/scene.seen): $(RESULTS)/%/.made/scene.seen: $$(call scene_of,$$*) $(call tool,scene) $$(call tables,$$(@D)) \
     $$(call other,$$(call settings,$$*),$$(@D)/settings) $$(foreach s,$$(SLICES),$$(call gone,$$(@D)/$$s.yaml))
 	@mkdir -p $(@D)
 	$(replace_if_changed) $(RESULTS)/$*/scene.yaml $(BIN)/pigment-scene $(call scene_of,$*) $(set-$*)
@@ -118,10 +122,10 @@ $(call as_it_is,$(foreach s,$(SLICES),$(call slices,$s))): %.yaml: $$(@D)/scene.
 
 # ---- the chain
 $(call each,packing,h5): $(RESULTS)/%/packing.h5: $(RESULTS)/%/.made/pack.yaml $(call tool,pack)
-	$(LAUNCH) $(BIN)/pigment-pack $< -o $@$(threads)
+	$(call timed,pack) $< -o $@$(threads)
 
 $(call each,kbrown,h5): $(RESULTS)/%/kbrown.h5: $(RESULTS)/%/.made/kbrown.yaml $(call tool,kbrown)
-	$(LAUNCH) $(BIN)/pigment-kbrown $< -o $@$(threads)
+	$(call timed,kbrown) $< -o $@$(threads)
 
 $(call each,dewatering,h5): $(RESULTS)/%/dewatering.h5: $(RESULTS)/%/.made/dewater.yaml $(call tool,dewater)
 	$(BIN)/pigment-dewater $< -o $@
@@ -131,9 +135,7 @@ starts = $(if $(run-$(1)),,packing $(filter kbrown dewatering,$(call files_of,$(
 taken := $(foreach c,$(CASES),$(if $(run-$c),$(RESULTS)/$c/trajectory.h5))
 $(filter-out $(taken),$(call each,trajectory,h5)): $(RESULTS)/%/trajectory.h5: $(RESULTS)/%/.made/consolidate.yaml $(call tool,consolidate) \
     $$(foreach f,$$(call starts,$$*),$$(@D)/.made/$$f.sum)
-	@date +%s > $(@D)/.made/began
-	$(LAUNCH) $(BIN)/pigment-consolidate $< $(foreach f,$(call starts,$*),--$f $(@D)/$f.h5) -o $@$(threads)
-	@echo $$(( $$(date +%s) - $$(cat $(@D)/.made/began) )) $(or $(lastword $(threads)),all) > $(@D)/.made/took
+	$(call timed,consolidate) $< $(foreach f,$(call starts,$*),--$f $(@D)/$f.h5) -o $@$(threads)
 
 # A run of another case, or of another study, which is made first (the Makefile at the top does so).
 run_of = $(BUILD)/studies/$(run-$(1))/trajectory.h5
@@ -148,7 +150,7 @@ $(call each,interactions,h5): $(RESULTS)/%/interactions.h5: $(RESULTS)/%/.made/i
 
 define analysis
 $(call each,$(1),h5): $(RESULTS)/%/$(1).h5: $(RESULTS)/%/.made/$(1).yaml $(RESULTS)/%/.made/trajectory.sum $(call tool,$(1))
-	$$(LAUNCH) $(BIN)/pigment-$(1) $$(@D)/trajectory.h5 --scene $$< -o $$@
+	$$(call timed,$(1)) $$(@D)/trajectory.h5 --scene $$< -o $$@
 endef
 $(foreach a,$(ANALYSES),$(eval $(call analysis,$a)))
 
@@ -162,7 +164,7 @@ judged_with := $(SIZE) $(CASES) / $(FIGURES)
 $(JUDGED) &: $(wildcard *.py) $(WORKFLOWS)/study.py $(WORKFLOWS)/layer.py $(sums_of_results) $(EXTRA:%=$(RESULTS)/%) \
     $(call other,$(judged_with),$(RESULTS)/.made/claims.settings)
 	@mkdir -p $(RESULTS)/.made
-	PYTHONPATH='$(WORKFLOWS)' PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 claims.py --results '$(RESULTS)' --size $(SIZE) --cases '$(CASES)' --figures '$(FIGURES)'
+	PYTHONPATH='$(WORKFLOWS)' PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 $(WORKFLOWS)/timed.py $(RESULTS)/.made/claims.took /usr/bin/python3 claims.py --results '$(RESULTS)' --size $(SIZE) --cases '$(CASES)' --figures '$(FIGURES)'
 	@echo '$(judged_with)' > $(RESULTS)/.made/claims.settings
 endif
 

@@ -12,7 +12,7 @@ from study import Study
 
 study = Study()
 noise = "-b" if study.cases[0].endswith("-b") else ""
-layer = re.match(r"llh-(\d+um-w\d+)", study.cases[0])[1]
+layer = re.match(r"llh-(\d+um-w.*?)(?=-k)", study.cases[0])[1]
 
 
 class Clusters:

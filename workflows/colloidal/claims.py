@@ -9,7 +9,7 @@ from study import FROM_INPUT, Study
 study = Study()
 runs = {case: Layer(study, case) for case in study.cases}
 noise = "-b" if study.cases[0].endswith("-b") else ""
-layer = re.match(r"hll-\d+um-w\d+", study.cases[0])[0]
+layer = re.match(r"hll-\d+um-w.*?(?=-k)", study.cases[0])[0]
 THICK = re.search(r"(\d+)um", layer)[1]
 POTENTIALS, LOW, HIGH = (0, 5, 10, 25, 50), (0, 5, 10), (25, 50)
 TIMES = (0.05, 0.1, 0.2, 0.3)

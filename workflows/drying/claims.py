@@ -113,8 +113,8 @@ study.claim("4.2", "No excess of small particles in the filter cake, even where 
 
 # ---- what the conclusions hang on
 variants = [("as chosen", tail)] + sorted({(label, re.sub(r"^[a-z]+-[0-9]+um|-s\d+", "", c)) for c in runs for label, hit in
-            (("strong evaporation doubled", c.endswith("-hard")), ("substrate ten times as open", c.endswith("-open")),
-             ("Brownian motion" if not tail.endswith("-b") else "no Brownian motion", c.endswith("-b") != tail.endswith("-b") and not re.search("hard|open", c) and tail.split("-")[1] in c.split("-")),
+            (("strong evaporation doubled", c.endswith("-h80")), ("substrate ten times as open", c.endswith("-a10")),
+             ("Brownian motion" if not tail.endswith("-b") else "no Brownian motion", c.endswith("-b") != tail.endswith("-b") and not re.search("-(h80|a10)$", c) and tail.split("-")[1] in c.split("-")),
              ("larger piece of layer", re.search(r"-w(\d+)", c)[0] not in tail)) if hit})
 found = {}
 for label, end in variants:
