@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "assembly/gap_guess.h"
 #include "forces/surface_spring.h"
@@ -36,7 +37,13 @@ RoughSubstrate::RoughSubstrate(const Interactions& interactions, std::vector<dou
 RoughSubstrate::Contact RoughSubstrate::contact_at(int k, const HeightField::Foot& foot) const {
   const resistance::HydrodynamicsParameters& model = interactions_.hydrodynamics;
   const double a = radius_[k], gap = foot.distance - a;
-  Contact c{foot, {gap, a, infinity, potential_[k], interactions_.substrate->surface_potential.value_or(potential_[k])}, gap, {}, 0, a};
+  Contact c{foot, {gap, a, infinity, potential_[k], interactions_.substrate->surface_potential.value_or(potential_[k])}, gap, {}, 0, a, 1};
+  // The gap opens as gap + (k1 x^2 + k2 y^2)/2. The pressure of a squeezed paraboloid adds up to 12 pi mu U/(h sqrt(k1 k2) (k1 + k2))
+  // [cox1974], its forces to those of the plane times 1/(a sqrt(k1 k2)) [derjaguin1934]. In a hollow as round as the particle both
+  // would be infinite; the contact is then no point, and these are held at what a hollow of 1.25 radii has.
+  constexpr double flattest = 0.2;
+  const double k1 = std::max(flattest, 1 + a * foot.curvature) / a, k2 = std::max(flattest, 1 + a * foot.least_curvature) / a;
+  c.derjaguin = 1 / (a * std::sqrt(k1 * k2));
   if (!interactions_.lubrication()) return c;
   const double h = resistance::hydrodynamic_gap(gap, a);
   c.squeeze_weight = resistance::taper(h / a, model.taper.squeeze_begin, model.taper.squeeze_end);
@@ -46,7 +53,13 @@ RoughSubstrate::Contact RoughSubstrate::contact_at(int k, const HeightField::Foo
     c.squeeze_weight = resistance::taper(h / b, model.taper.squeeze_begin, model.taper.squeeze_end);
     c.squeeze_radius = a * b / (a + b);
   } else {
-    c.scalars = scaled(resistance::wall_term(model, a, gap), c.squeeze_weight);
+    c.scalars = resistance::wall_term(model, a, gap);
+    if (model.model == resistance::HydrodynamicsParameters::Model::Exact) {
+      const double square = 2 / (std::sqrt(k1 * k2) * (k1 + k2));
+      c.scalars.perpendicular += 6 * std::numbers::pi * (square - a * a) / h;
+      c.squeeze_radius = std::sqrt(square);
+    }
+    c.scalars = scaled(c.scalars, c.squeeze_weight);
   }
   return c;
 }
@@ -106,8 +119,8 @@ RoughSubstrate::Sum RoughSubstrate::sum_of(int k, const Laws& laws, double mu, d
     if (interactions_.substrate->colloidal)
       for (const auto& law : laws) {
         const forces::PairTerm t = law->switched(c.geometry);
-        push += t.force;
-        stiffness += t.stiffness;
+        push += c.derjaguin * t.force;
+        stiffness += c.derjaguin * t.stiffness;
       }
     // The surface stops particles whatever the forces.
     if (guess < 0) {

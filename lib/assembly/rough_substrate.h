@@ -2,7 +2,8 @@
 // What a substrate that is not flat does to the particles of a step (section 3.2.3 of [sand2010]; model/height_field.h).
 //
 // A particle touches it at every point whose distance is least among its neighbours. There it feels the plane tangent to that
-// point: the plane's resistance, forces and contact in the frame of the normal n, tapered to nothing between half a radius and one
+// point: the plane's resistance, forces and contact in the frame of the normal n, the squeeze near contact and the forces with the
+// curvature that the gap has there, tapered to nothing between half a radius and one
 // and a half as a pair's squeeze is. What the nearest contact has lost by then the horizontal plane at the mean height takes over,
 // so that a layer far above, and one on a substrate of vanishing amplitude, see the plane. Under hydrodynamics.model: thesis the
 // contact is a corner, a virtual sphere of a tenth of the radius, where the surface is convex with a curvature above 1/a.
@@ -44,6 +45,7 @@ class RoughSubstrate {
     double gap_begin;
     resistance::BoundaryScalars scalars;       // tapered, at gap_begin
     double squeeze_weight, squeeze_radius;     // of the singular part, for its impulse over the step
+    double derjaguin;                          // the curved surface's forces over the plane's
   };
   struct Sum {
     double force[6];

@@ -178,11 +178,13 @@ HeightField::Foot HeightField::descend(double x, double y, const Vec3& p) const 
   }
   const Local s = local(x, y);
   const double slope2 = 1 + s.gx * s.gx + s.gy * s.gy, slope = std::sqrt(slope2);
-  Foot foot{x, y, Vec3(-s.gx, -s.gy, 1) / slope, inside * std::sqrt(2 * value), 0};
+  Foot foot{x, y, Vec3(-s.gx, -s.gy, 1) / slope, inside * std::sqrt(2 * value), 0, 0};
   // Principal curvatures: eigenvalues of the second fundamental form over the first, positive where convex.
   const double mean = -0.5 * ((1 + s.gy * s.gy) * s.hxx - 2 * s.gx * s.gy * s.hxy + (1 + s.gx * s.gx) * s.hyy) / (slope2 * slope);
   const double product = (s.hxx * s.hyy - s.hxy * s.hxy) / (slope2 * slope2);
-  foot.curvature = mean + std::sqrt(std::max(0.0, mean * mean - product));
+  const double half_difference = std::sqrt(std::max(0.0, mean * mean - product));
+  foot.curvature = mean + half_difference;
+  foot.least_curvature = mean - half_difference;
   return foot;
 }
 

@@ -31,7 +31,7 @@ class HeightField {
     double x, y;       // where, um, unwrapped as the given point is
     Vec3 normal;       // of the surface there, out of the substrate
     double distance;   // um; negative where the given point lies inside the substrate
-    double curvature;  // 1/um, the larger principal one, positive where the surface is convex
+    double curvature, least_curvature;  // 1/um, the principal ones, positive where the surface is convex
   };
   // All of them no farther than reach (um), in fixed order. A point inside the substrate has the nearest only, however
   // far it is.

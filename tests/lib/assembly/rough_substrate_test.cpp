@@ -106,7 +106,11 @@ TEST(RoughSubstrate, OnASlopeTheResistanceIsThatOfTheTangentPlane) {
   ASSERT_EQ(feet.size(), 1u);
   EXPECT_NEAR(feet[0].distance, a + gap, 1e-9);
   EXPECT_GT(std::abs(feet[0].normal.x()), 0.1);
-  const MatrixXd expected = isolated(a) + tilted(resistance::wall_term(layer.interactions.hydrodynamics, a, gap), feet[0].normal);
+  // The slope is curved by 1 % of the sphere's own curvature: 12 pi mu/(h sqrt(k1 k2) (k1 + k2)) for 6 pi mu a^2/h.
+  resistance::BoundaryScalars wall = resistance::wall_term(layer.interactions.hydrodynamics, a, gap);
+  const double k1 = 1 / a + feet[0].curvature, k2 = 1 / a + feet[0].least_curvature;
+  wall.perpendicular += 12 * std::numbers::pi / (gap * std::sqrt(k1 * k2) * (k1 + k2)) - 6 * std::numbers::pi * a * a / gap;
+  const MatrixXd expected = isolated(a) + tilted(wall, feet[0].normal);
   // The foot is found to some 1e-9 um of a gap of 0.01.
   EXPECT_LT((layer.matrix() - expected).norm(), 1e-6 * expected.norm());
 }
@@ -176,7 +180,33 @@ TEST(RoughSubstrate, InAValleyBothWallsPush) {
   const double e = std::exp(-6.0 / 5), force = 4 * std::numbers::pi * 80 * 8.8541878128e-12 * a * 1e-6 * 0.025 * 0.025 / 5e-9 * e / (1 + e) * 1e12;
   EXPECT_NEAR(layer.system.right_hand_side[0], 0, 1e-6 * force);
   EXPECT_NEAR(layer.system.right_hand_side[1], 0, 1e-6 * force);
-  EXPECT_NEAR(layer.system.right_hand_side[2], 2 * force * feet[0].normal.z(), 1e-6 * force);
+  // A wall curved across the groove alone: Derjaguin's 1/sqrt(k1 k2) for a.
+  const double curved = 1 / std::sqrt(1 + a * (feet[0].curvature + feet[0].least_curvature));
+  EXPECT_NEAR(feet[0].curvature * feet[0].least_curvature, 0, 1e-9);
+  EXPECT_NEAR(layer.system.right_hand_side[2], 2 * curved * force * feet[0].normal.z(), 1e-6 * force);
+}
+
+// A round hill is a sphere: near contact the squeeze is that of two spheres by their exact functions, the force their law's.
+TEST(RoughSubstrate, OnAHillTheContactIsThatOfTwoSpheres) {
+  const double a = 0.3;
+  for (const double gap : {0.0003, 0.003}) {
+    FirstStep layer(height_map({0.6, 1, {}}));
+    const auto foot = layer.field().feet({2, 2, 0.8}, 0.3).at(0);
+    const double b = 1 / foot.curvature;
+    EXPECT_NEAR(foot.least_curvature * b, 1, 1e-6);
+    layer.colloidal("{electrostatic: {debye_length: 5 nm}, van_der_waals: {}}");
+    layer.treatment = assembly::Treatment::Explicit;
+    layer.add(a, {2, 2, 0.6 + a + gap});
+    layer.build();
+    const double pair = resistance::pair_term(layer.interactions.hydrodynamics, a, b, gap).squeeze;
+    const double hill = layer.matrix()(2, 2) - resistance::stokes_drag(a);
+    // The terms beside the singular one stay the plane's: some 6 pi a of 6 pi R^2/h.
+    EXPECT_NEAR(hill, pair, 0.02 * pair + 6 * std::numbers::pi * a);
+    const Liquid liquid = liquid_at(layer.interactions.liquid, 298.15);
+    double force = 0;
+    for (const auto& [name, law] : layer.interactions.colloidal) force += law->prepare(liquid)->switched({gap, a, b, -25, -25}).force;
+    EXPECT_NEAR(layer.system.right_hand_side[2], force, 1e-6 * std::abs(force));
+  }
 }
 
 // Section 3.2.3: a wall is a virtual sphere of 100 a, a corner one of a/10, that touches the boundary.
