@@ -50,8 +50,15 @@ assembly::Film StepContext::film(const StepStart& start) const {
 
 void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
   neighbours::PairRange range = assembly::pair_range(problem_.interactions, liquid);
-  // A wider skin lists more pairs and lasts longer.
   const double smallest = *std::min_element(problem_.particles.radius.begin(), problem_.particles.radius.end());
+  // Pairs that noise may bring together within one step, six standard deviations of a relative displacement apart, are listed before it:
+  // unseen, they would pass into each other. Steps that are chosen here are far too short for that.
+  if (problem_.interactions.brownian && problem_.stepping.time_step && range.limit(smallest, smallest) > 0) {
+    const double diffusivity = liquid.thermal_energy() / (6 * std::numbers::pi * liquid.viscosity * smallest);
+    const double reach = 6 * std::sqrt(4 * diffusivity * *problem_.stepping.time_step);
+    range.at_least = std::max(range.at_least, std::min(reach, 0.25 * std::min(problem_.cell.width_x, problem_.cell.width_y)));
+  }
+  // A wider skin lists more pairs and lasts longer.
   range.skin = std::max(0.02, 0.4 * smallest);
   list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
   assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);

@@ -101,3 +101,36 @@ TEST(SettledColumn, FollowsCarnahanAndStarling) {
     EXPECT_NEAR(phi, low, 4 * error + 0.015) << "slice " << s << ", error " << error;
   }
 }
+
+// A step in which spheres diffuse over their own size: pairs that noise brings together from beyond the reach of lubrication are known
+// before it. Unseen, they came to overlap, and the noise of their contact threw them a thousand diameters away.
+TEST(CoarseStep, NoPairPassesUnseen) {
+  constexpr double a = 0.1, spacing = 0.4;
+  constexpr int side = 4;
+  stepping::Problem problem = test::empty_problem();
+  problem.stepping = {};
+  problem.stepping.time_step = 0.4;
+  problem.interactions.liquid.temperature = 353.15;
+  problem.interactions.brownian.emplace();
+  problem.interactions.brownian->model = forces::BrownianParameters::Model::FluctuationDissipation;
+  auto document = config::Document::from_text("colloidal: {electrostatic: {debye_length: 5 nm}}");
+  problem.interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
+  problem.cell = {side * spacing, side * spacing, 100};
+  Vec3Array position;
+  for (int k = 0; k < side * side * side; ++k)
+    test::add_particle(problem, position, a, spacing * Vec3(k % side, k / side % side, 20 + k / (side * side)));
+  stepping::RunState state = stepping::initial_state(problem, position);
+  stepping::Stepper stepper(problem, state);
+  const Liquid liquid = liquid_at(problem.interactions.liquid, 353.15);
+  const double deviation = std::sqrt(2 * liquid.thermal_energy() / (6 * pi * liquid.viscosity * a) * 0.4);
+  for (int s = 0; s < 150; ++s) {
+    const Vec3Array before = state.position;
+    stepper.advance(state, 0.4);
+    // Of a lone sphere's displacement, 7 standard deviations a component are met once in 1e12; lubrication lets them move less.
+    for (std::size_t k = 0; k < before.size(); ++k)
+      ASSERT_LT((state.position[k] - before[k]).cwiseAbs().maxCoeff(), 7 * deviation) << "step " << s << ", particle " << k;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        ASSERT_GT(problem.cell.minimum_image(state.position[i] - state.position[j]).norm(), 2 * a) << "step " << s;
+  }
+}
