@@ -73,12 +73,18 @@ for path in sorted(folder.glob("*/run.json")):
                 "pressure": abs(m["pressure"] / reference["pressure"] - 1)}
     rows.append(row)
 columns = ["run", "status", "seconds", "steps", "iterations", "end", "displacement_rms", "displacement_median", "profile_l1", "separation_ks", "clustered", "pressure"]
-part = folder / "accuracy.csv.part"
-with open(part, "w", newline="") as file:
-    writer = csv.DictWriter(file, columns, lineterminator="\n", restval="")
-    writer.writeheader()
-    writer.writerows(rows)
-part.replace(folder / "accuracy.csv")
+
+
+def write_table(name, columns, rows):
+    part = folder / f"{name}.part"
+    with open(part, "w", newline="") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n", restval="", extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(rows)
+    part.replace(folder / name)
+
+
+write_table("accuracy.csv", columns, rows)
 
 done = [r for r in rows if r["status"] == 0 and r["run"] != "reference"]
 by_name = {r["run"]: r for r in done}
@@ -115,6 +121,33 @@ for error, label, bound in ERRORS:
                 f"no other run is at most as wrong in less than {1 - MARGIN:g} of the time", not better)
     if bound:
         study.claim("accuracy", f"The defaults are close enough to the converged run: {label}", "none", f"{default[error]:.3g}", f"at most {bound:g}", bool(default[error] <= bound))
+# ---- noise
+calm = measures("noise/reference")
+noises = []
+for path in sorted(folder.glob("noise/*/run.json")):
+    run = json.loads(path.read_text())
+    row = {"run": path.parent.name, "status": run["status"], "seconds": run["seconds"]}
+    if run["status"] == 0:
+        m = measures(f"noise/{row['run']}")
+        row |= {"steps": m["steps"], "profile_l1": np.abs(m["profile"] - calm["profile"]).sum() / calm["profile"].sum(),
+                "separation_ks": np.abs(share(m["gaps"]) - share(calm["gaps"])).max(), "clustered": abs(m["clustered"] - calm["clustered"]),
+                "pressure": abs(m["pressure"] / calm["pressure"] - 1), "pairs": len(m["gaps"])}
+    noises.append(row)
+rows += noises
+write_table("noise.csv", ["run", "status", "seconds", "steps", "profile_l1", "separation_ks", "clustered", "pressure"], noises)
+ended = {r["run"]: r for r in noises if r["status"] == 0}
+# Two samples of as many separations from one distribution differ by less in 99 of 100 cases (Kolmogorov and Smirnov).
+chance = 1.63 * np.sqrt(2 / len(calm["gaps"]))
+figure, axes = study.figure("noise", "With Brownian motion: error of statistics against wall time, by noise and step; against the full noise at a step of 5 us. Dotted: what chance alone makes of the separations, 99 %", columns=3)
+for axis, (error, label) in zip(axes, (("separation_ks", "separations < 50 nm, KS"), ("clustered", "clustered fraction at 20 nm"), ("profile_l1", "solids profile, L1"))):
+    for (name, r), marker in zip(((n, r) for n, r in ended.items() if n != "reference"), "osv^<>DPX"):
+        axis.loglog(r["seconds"], max(r[error], 1e-5), marker, label=name, linestyle="none", markersize=7 if name == "default" else 3.5)
+    axis.set(xlabel="wall time (s), one thread", ylabel=label)
+axes[0].axhline(chance, color="k", linestyle=":", linewidth=0.8)
+axes[0].legend(fontsize=5)
+if "default" in ended:
+    study.claim("accuracy", "The default noise and step have the separations of the converged ones", "none", f"KS {ended['default']['separation_ks']:.3f}; chance alone {chance:.3f} (99 %); k_brown "
+                + (f"{ended['k_brown-0.02ms']['separation_ks']:.3f}" if "k_brown-0.02ms" in ended else "not ended"), "at most 0.02 above what chance makes of equal distributions", bool(ended["default"]["separation_ks"] < 0.02 + chance))
 late = [f"{r['run']} (status {r['status']})" for r in rows if r["status"]]
 study.claim("accuracy", "Every choice of every knob ends its run", "none", f"not ended: {', '.join(late) or 'none'}", "status 0 within the limit of the study", not late)
 study.finish()

@@ -21,6 +21,7 @@ EXPECTED = {
     "overlap": (0, ("until", "first_critical_concentration"), "particles overlap at the start"),
     "explicit-long": (1, ("failed",), "explicit Euler with a step that is too long"),
     "hot-fine": (0, ("until",), "200 nm at 80 degrees, Brownian, long"),
+    "hot-fine-noise": (0, ("until",), "the same with the full noise; full: 300 s at 0.1 ms"),
 }
 study = Study()
 
