@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench bench-peers speed hindered-drag brownian accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
+.PHONY: all build test bench bench-peers speed hindered-drag brownian brownian-cost accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
 
 all: study-first
 	@echo "The report of the first study: $(BUILD)/studies/first/report.html"
@@ -31,6 +31,7 @@ help:
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make hindered-drag   measure what hindered drag changes in a draining layer, write docs/hindered-drag.md'
 	@echo 'make brownian        errors of Brownian motion against the step (study-brownian), write docs/brownian.md'
+	@echo 'make brownian-cost   what long runs with the full noise cost, into $(BUILD)/brownian-cost.md; PART=0.02 measures a part'
 	@echo 'make accuracy        measure errors and cost of the resistance models, write docs/accuracy.md'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
 	@echo 'make deb             a Debian package of the same, in $(BUILD)'
@@ -76,6 +77,11 @@ hindered-drag: build
 # Errors of Brownian motion against the step, as docs/brownian.md.
 brownian: study-brownian
 	workflows/replace_if_changed.sh docs/brownian.md /usr/bin/python3 workflows/brownian/page.py '$(BUILD)/studies/brownian'
+
+# Wall time of long runs with the full noise. Nothing else should run beside it.
+PART ?= 1
+brownian-cost: build
+	workflows/brownian/cost.sh '$(abspath $(BUILD))/bin' '$(BUILD)/brownian-cost' '$(PART)' | tee '$(BUILD)/brownian-cost.md'
 
 # Errors of the resistance models (study-hydrodynamics) and what a pair costs, as docs/accuracy.md. Nothing else should run beside it.
 accuracy: study-hydrodynamics
