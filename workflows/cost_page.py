@@ -39,8 +39,7 @@ for study in studies:
     size, *cases = settings.read_text().split("/")[0].split() if settings.exists() else ("", *(p.name for p in sorted(folder.glob("*")) if p.is_dir()))
     stages = [s for case in cases for s in sorted((folder / case / ".made").glob("*.took"))]
     rest = measured(folder, size)
-    own = folder / ".made" / "claims.took"
-    rest += took(own) if own.exists() else 0
+    rest += sum(took(own) for own in sorted((folder / ".made").glob("*.took")))     # claims, report
     runs = []
     for path in stages:
         scene = path.parent.parent / "scene.yaml"

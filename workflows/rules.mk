@@ -171,7 +171,7 @@ endif
 files_shown = $(foreach c,$(REPORT_CASES),$(addprefix $(RESULTS)/$c/,$(addsuffix .h5,$(filter-out interactions,$(call files_of,$c)))))
 $(RESULTS)/report.html: $(sums_of_results) $(JUDGED) $(call tool,report) $(call other,$(files_shown),$(RESULTS)/.made/report.settings)
 	@mkdir -p $(RESULTS)/.made
-	$(BIN)/pigment-report $(files_shown) $(addprefix --claims ,$(filter %.csv,$(JUDGED))) $(addprefix --figure ,$(filter %.svg,$(JUDGED))) --title 'Study: $(STUDY)' -o $@$(threads)
+	/usr/bin/python3 $(WORKFLOWS)/timed.py $(RESULTS)/.made/report.took $(BIN)/pigment-report $(files_shown) $(addprefix --claims ,$(filter %.csv,$(JUDGED))) $(addprefix --figure ,$(filter %.svg,$(JUDGED))) --title 'Study: $(STUDY)' -o $@$(threads)
 	@echo '$(files_shown)' > $(RESULTS)/.made/report.settings
 
 # ---- checksums of results

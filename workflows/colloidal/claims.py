@@ -36,17 +36,21 @@ ALL = LOW + HIGH
 reach = lambda p, t: all(r.time[-1] > t - 1e-3 for r in of_potential(p))     # noqa: E731
 at_time = lambda t: [p for p in POTENTIALS if reach(p, t)]                   # noqa: E731
 PACKINGS = range(len(of_potential(50)))
-WEAK = next(p for p in POTENTIALS if one(f"k10-p{p}-limited"))      # the potential whose surfaces were tried
+DEAR = "layers at 0 to 10 mV are for SIZE=full: every pair becomes a contact, and a hundredth of a second takes minutes of one core"
 
 # ---- surface potential
 WITHIN = 0.01     # what we call a difference in thickness: "much thicker" in the source is several per cent of the layer
-relative = [np.mean([of_potential(p)[i].z99[at(of_potential(p)[i], 0.2)] for p in LOW]) / np.mean([of_potential(p)[i].z99[at(of_potential(p)[i], 0.2)] for p in HIGH]) - 1
-            for i in PACKINGS]
-s = Sample(relative)
 mean_um = lambda p, t=0.2, what="z99": Sample(getattr(r, what)[at(r, t)] / UM for r in of_potential(p))     # noqa: E731
-study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed",
-            "height below which 99 % of the solids lie at 0.2 s: " + ", ".join(f"{p} mV {mean_um(p).text(2)} um" for p in at_time(0.2)) + f"; mean of {', '.join(map(str, LOW))} mV over 25 and 50 mV {100 * s.mean:+.2f} ± {100 * s.error:.2f} %",
-            f"more than {100 * WITHIN:g} % ({STUDENT})", s.above(WITHIN))
+if LOW:
+    relative = [np.mean([of_potential(p)[i].z99[at(of_potential(p)[i], 0.2)] for p in LOW]) / np.mean([of_potential(p)[i].z99[at(of_potential(p)[i], 0.2)] for p in HIGH]) - 1
+                for i in PACKINGS]
+    s = Sample(relative)
+    study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed",
+                "height below which 99 % of the solids lie at 0.2 s: " + ", ".join(f"{p} mV {mean_um(p).text(2)} um" for p in at_time(0.2)) + f"; mean of {', '.join(map(str, LOW))} mV over 25 and 50 mV {100 * s.mean:+.2f} ± {100 * s.error:.2f} %",
+                f"more than {100 * WITHIN:g} % ({STUDENT})", s.above(WITHIN))
+else:
+    study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed", DEAR,
+                f"more than {100 * WITHIN:g} % ({STUDENT})", None)
 surface = {p: [abs(of_potential(p)[0].thickness[at(of_potential(p)[0], t)] - of_potential(50)[0].thickness[at(of_potential(50)[0], t)]) for t in TIMES if reach(p, t)] for p in POTENTIALS}
 study.claim("4.4", "The layer shrinks at roughly the same rate at every potential", "Fig. 38",
             f"the surface at {len(TIMES)} times differs by at most {max(max(v) for v in surface.values()) / 1e-9:.1f} nm, as the dewatering is the same", "the surface's height is the wet layer less the liquid lost, which the scene imposes", FROM_INPUT)
@@ -54,7 +58,7 @@ bulk = {p: Sample(r.bands(at(r, 0.2))[1] for r in of_potential(p)) for p in POTE
 slope = Sample(np.polyfit(ALL, [of_potential(p)[i].bands(at(of_potential(p)[i], 0.2))[1] for p in ALL], 1)[0] * 50 for i in PACKINGS)
 study.claim("4.4", "The potential has no significant systematic impact on the solids inside", "Fig. 37", "middle of the layer at 0.2 s: " + ", ".join(f"{p} mV {bulk[p].text()}" for p in at_time(0.2)) + f" wt-%; fitted over {ALL[0]} to 50 mV, a rise of {slope.text(2)}",
             f"the straight line through {len(ALL)} potentials changes over 50 mV by less than 1 wt-% ({STUDENT})", both(slope.below(1), slope.above(-1)))
-near, NEAR_TIME = {}, next(t for t in reversed(TIMES) if reach(0, t))
+near, NEAR_TIME = {}, next(t for t in reversed((0.01, *TIMES)) if reach(0, t))
 for p in POTENTIALS:
     share = []
     for r in of_potential(p):
@@ -68,14 +72,18 @@ study.claim("4.4", "A low potential agglomerates the particles: a sharp peak at 
             f"more at 0 than at 50 mV, of the pairs nearer than the smallest diameter, {NEAR_TIME:g} s, by ten standard deviations of the packings at 50 mV", bool(s.mean > 10 * spread))
 
 # ---- how the surface holds
-tensions = {p: [(t, r) for t, r in ((72, of_potential(p)[0]), *((t, one(f"k10-p{p}-t{t:g}")) for t in (7, 0.7, 0.07))) if r] for p in (WEAK, 50)}
-limited = {p: one(f"k10-p{p}-limited") for p in (WEAK, 50)}
-differences = [(f"{t:g} mN/m", a.z99[at(a, 0.2)] / b.z99[at(b, 0.2)] - 1, a.protruding[at(a, 0.2)]) for (t, a), (_, b) in zip(tensions[WEAK], tensions[50])]
-if limited[WEAK] and limited[50]:
-    differences.append(("500 kPa at most", limited[WEAK].z99[at(limited[WEAK], 0.2)] / limited[50].z99[at(limited[50], 0.2)] - 1, limited[WEAK].protruding[at(limited[WEAK], 0.2)]))
-study.claim("4.4", f"A surface that yields would let layers of low potential ({WEAK} mV) stay thicker", "Fig. 36 leaves open how the surface held in the source",
-            f"z99 at {WEAK} mV over that at 50 mV, 0.2 s: " + "; ".join(f"{name} {100 * d:+.2f} % ({100 * o:.2f} % of the solids above the surface)" for name, d, o in differences),
-            f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", any(d > WITHIN for _, d, _ in differences[1:]))
+if LOW:
+    WEAK = 0
+    tensions = {p: [(t, r) for t, r in ((72, of_potential(p)[0]), *((t, one(f"k10-p{p}-t{t:g}")) for t in (7, 0.7, 0.07))) if r] for p in (WEAK, 50)}
+    limited = {p: one(f"k10-p{p}-limited") for p in (WEAK, 50)}
+    differences = [(f"{t:g} mN/m", a.z99[at(a, 0.2)] / b.z99[at(b, 0.2)] - 1, a.protruding[at(a, 0.2)]) for (t, a), (_, b) in zip(tensions[WEAK], tensions[50])]
+    if limited[WEAK] and limited[50]:
+        differences.append(("500 kPa at most", limited[WEAK].z99[at(limited[WEAK], 0.2)] / limited[50].z99[at(limited[50], 0.2)] - 1, limited[WEAK].protruding[at(limited[WEAK], 0.2)]))
+    study.claim("4.4", f"A surface that yields would let layers of low potential ({WEAK} mV) stay thicker", "Fig. 36 leaves open how the surface held in the source",
+                f"z99 at {WEAK} mV over that at 50 mV, 0.2 s: " + "; ".join(f"{name} {100 * d:+.2f} % ({100 * o:.2f} % of the solids above the surface)" for name, d, o in differences),
+                f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", any(d > WITHIN for _, d, _ in differences[1:]))
+else:
+    study.claim("4.4", "A surface that yields would let uncharged layers stay thicker", "Fig. 36 leaves open how the surface held in the source", DEAR, f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", None)
 
 # ---- double layer
 def double_layer(k):
@@ -140,7 +148,7 @@ for i, p in enumerate(POTENTIALS):
 axis.set(xlabel="time (s)", ylabel="thickness (µm)")
 axis.legend()
 figure, axis = study.figure("fig39-separations", f"Surface separations of near neighbours at {NEAR_TIME:g} s (Fig. 39)")
-for group, label in ((of_potential(0), "0 mV, 10 nm"), (of_potential(10), "10 mV, 10 nm"), (of_potential(50), "50 mV, 10 nm"), (double_layer("2.5"), "25 mV, 2.5 nm"), (double_layer(10), "25 mV, 10 nm")):
+for group, label in ((of_potential(0), "0 mV, 10 nm"), *([(of_potential(10), "10 mV, 10 nm")] if of_potential(10) else []), (of_potential(50), "50 mV, 10 nm"), (double_layer("2.5"), "25 mV, 2.5 nm"), (double_layer(10), "25 mV, 10 nm")):
     with study.file(group[0].case, "separation") as f:
         x, d = f["separation/edges"][:] * 1e9, f["separation/density"][at(group[0], NEAR_TIME)] * 1e-9
     axis.stairs(d, x, label=label, lw=1.2)
@@ -168,11 +176,12 @@ for axis, group in zip(axes, ([(f"{p} mV", of_potential(p)[0]) for p in POTENTIA
         axis.semilogy(w[pressure > 0], pressure[pressure > 0], label=name)
     axis.set(xlabel="solids (wt-%)", ylabel="pressure of the surface (kPa)")
     axis.legend()
-figure, axes = study.figure("surface-tension", f"Thickness by the particles in time with surfaces that hold less and less, {THICK} um, 10 nm; dashes: the surface", columns=2)
-for axis, p in zip(axes, (WEAK, 50)):
-    for i, (name, r) in enumerate([(f"{t:g} mN/m", r) for t, r in tensions[p]] + ([("500 kPa at most", limited[p])] if limited[p] else [])):
-        axis.plot(r.time, r.z99 / UM, color=f"C{i}", label=name)
-        axis.plot(r.time, r.thickness / UM, "--", color=f"C{i}", lw=0.6)
-    axis.set(xlabel="time (s)", ylabel="z99 (µm)", title=f"{p} mV")
-axes[0].legend()
+if LOW:
+    figure, axes = study.figure("surface-tension", f"Thickness by the particles in time with surfaces that hold less and less, {THICK} um, 10 nm; dashes: the surface", columns=2)
+    for axis, p in zip(axes, (WEAK, 50)):
+        for i, (name, r) in enumerate([(f"{t:g} mN/m", r) for t, r in tensions[p]] + ([("500 kPa at most", limited[p])] if limited[p] else [])):
+            axis.plot(r.time, r.z99 / UM, color=f"C{i}", label=name)
+            axis.plot(r.time, r.thickness / UM, "--", color=f"C{i}", lw=0.6)
+        axis.set(xlabel="time (s)", ylabel="z99 (µm)", title=f"{p} mV")
+    axes[0].legend()
 study.finish()
