@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "forces/surface_spring.h"
 #include "resistance/scene_resistance.h"
@@ -10,6 +11,10 @@
 namespace pigment::assembly {
 
 namespace {
+
+// Particles that neither touch the surface nor leave it may be held in one pass and free in the next for ever. After some passes one
+// stays as it is that the surface holds back by less than kT/nm, or that sticks out by less than a tenth of an atom.
+constexpr double weak_hold = 4;  // pN
 
 std::vector<int> chunk_of_pairs(const solve::PairTopology& t) {
   std::vector<int> count;
@@ -62,6 +67,7 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   resistance_height_.resize(n);
   scalars_.resize(pairs_.size());
   bracket_.resize(pairs_.size());
+  turn_.resize(pairs_.size());
   position_.resize(n);
   protrusion_guess_.assign(n, 0.0);
   protrusion_end_.assign(n, 0.0);
@@ -100,6 +106,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     prepared_temperature_ = liquid.temperature;
   }
   std::fill(bracket_.begin(), bracket_.end(), GapBracket{});
+  std::fill(turn_.begin(), turn_.end(), 0.0);
   const std::size_t n = radius_.size();
   external_force_.resize(force.empty() ? 0 : n);
   const int chunks = topology_.chunks().count();
@@ -146,7 +153,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
     const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
-    double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_begin_[p]));
+    double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_begin_[p] - turn_[p]));
     const std::int32_t target = topology_.target(p);
     const double at = resistance_gap_[p];
     if (path_resistance_ && passes_ > 0 && interactions_.lubrication())
@@ -158,7 +165,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
       const double weight = squeeze_weight(p);
       const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess, at);
       viscous += weight * step.coefficient;
-      f += mu * weight * step.impulse / dt_;
+      f += mu * weight * (step.impulse - resistance::squeeze_constant(g.reduced_radius()) * turn_[p] / guess) / dt_;
     }
     if (f != 0)
       for (int d = 0; d < 3; ++d) {
@@ -228,12 +235,13 @@ void StepAssembly::gap_velocities(const std::vector<double>& u, std::vector<doub
   }
 }
 
-GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u) {
+GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u, double scale) {
   const std::size_t D = interactions_.rotation() ? 6 : 3;
   const int chunks = topology_.chunks().count();
   std::vector<GapCheck> checks(chunks);
   std::vector<double> row;
   double pressure = 0;
+  const bool undecided = passes_ >= 6;
   if (interactions_.free_surface) {
     solve::apply(system, u, row);
 #pragma omp parallel for schedule(static)
@@ -253,8 +261,14 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1) && !path_; ++p) {
       const auto [i, j] = pairs_[p];
       Vec3 d = normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]);
-      for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
+      double along = 0;
+      for (int q = 0; q < 3; ++q) {
+        const double moved = dt_ * (u[j * D + q] - u[i * D + q]);
+        d[q] += moved;
+        along += normal_[p][q] * moved;
+      }
       const double gap = d.norm() - radius_[i] - radius_[j];
+      if (newton_) turn_[p] = gap - gap_begin_[p] - along;
       if (gap < check.smallest_gap) {
         check.smallest_gap = gap;
         check.worst_pair = p;
@@ -264,12 +278,15 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
       if (off_guess(gap, guess, guess != gap_begin_[p])) {
+        const double missed = (gap - guess) / (std::max(gap, 0.0) + scale);
+        check.miss += missed * missed;
         const StepForce force = pair_step_force(p);
         const double next = next_gap(gap, guess, force.tangent(gap), force);
         guess = bracket_[p].take(next, guess);
         check.refine = true;
       }
     }
+    const bool pairs_refine = std::exchange(check.refine, false);
     for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
       const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
       if (rough_) {
@@ -295,7 +312,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         double& guess = protrusion_guess_[k];
         const double before = guess;
         if (guess == held) {
-          if (holding_force_[k] < 0) guess = 0;  // the surface lets go
+          if (holding_force_[k] < (undecided ? -weak_hold : 0)) guess = 0;  // the surface lets go
           else if (holding_force_[k] > forces::rigid_load(*interactions_.free_surface, a)) guess = 2 * forces::rigid_protrusion;
         } else if (guess > 0) {
           const forces::SpringForce spring = forces::lifted_spring(*interactions_.free_surface, a, guess);
@@ -306,19 +323,23 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
           // the height: Newton's method from below comes nearer without overshooting, so what left the constant part begins at its end.
           else if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4)
             guess = guess < forces::rigid_protrusion && protrusion > forces::rigid_protrusion ? forces::rigid_protrusion : protrusion;
-        } else if (protrusion > 0) {
+        } else if (protrusion > (undecided ? forces::rigid_protrusion : 0)) {
           guess = held;  // caught
         }
         if (guess != before) check.refine = true;
       }
     }
+    check.only_pairs = !check.refine;
+    check.refine = check.refine || pairs_refine;
   }
   if (path_resistance_ && flow_) follow_flow(u);
   ++passes_;
   GapCheck all = checks[0];
+  for (std::size_t c = 1; c < checks.size(); ++c) all.miss += checks[c].miss;
   for (const GapCheck& check : checks) {
     all.refine = all.refine || check.refine;
     all.crossed = all.crossed || check.crossed;
+    all.only_pairs = all.only_pairs && check.only_pairs;
     if (check.smallest_gap < all.smallest_gap) {
       all.smallest_gap = check.smallest_gap;
       all.worst_pair = check.worst_pair;
@@ -339,7 +360,7 @@ double StepAssembly::rough_gap(const Vec3& position, double radius) const {
 
 StepForce StepAssembly::pair_step_force(std::size_t p) const {
   const forces::PairGeometry& g = geometry_[p];
-  StepForce f{laws_, g, gap_begin_[p], 0, 0};
+  StepForce f{laws_, g, gap_begin_[p], 0, 0, turn_[p]};
   const resistance::PairScalars& s = scalars_[p];
   if (s.squeeze > 0) {
     const double singular = liquid_.viscosity * squeeze_weight(p) * resistance::squeeze_constant(g.reduced_radius()) / dt_;

@@ -43,6 +43,8 @@ struct BoundaryPressures {
 struct GapCheck {
   bool refine = false;         // solve again
   bool crossed = false;        // some gap that was open came out closed
+  bool only_pairs = true;      // nothing but open gaps of pairs asks for it
+  double miss = 0;             // sum of squares of how far those gaps came out from their guesses, in units of gap + scale
   double surface_height = 0;   // at the end of the step, um
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
@@ -70,7 +72,8 @@ class StepAssembly {
   // A random force, engine order, D a particle, that acts from here to the next begin().
   void set_random_force(std::vector<double> force) { random_force_ = std::move(force); }
   // Judges a solution (engine order) of the system built last and moves the guesses towards it.
-  GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution);
+  // scale: um, the length by which a gap may be wrong (GapCheck::miss).
+  GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution, double scale = 5e-3);
 
   const solve::PairTopology& topology() const { return topology_; }
   std::size_t pair_count() const { return pairs_.size(); }
@@ -141,6 +144,9 @@ class StepAssembly {
   bool path_ = false, path_resistance_ = false, path_force_ = false, resistance_only_ = false;
   int passes_ = 0;  // solutions judged in this step
   std::vector<GapBracket> bracket_;  // one a pair
+  // What each pair's gap gains as its axis turns in the step, (transverse motion)^2/2r, um: no part of the linear system, it is taken from
+  // the last solution. Left out, a bond that turns by 5 degrees would be held 1 nm from where its force is right.
+  std::vector<double> turn_;
   // What the averages along the step start from.
   std::vector<Vec3> separation_;                             // one a pair, from i to j
   std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;

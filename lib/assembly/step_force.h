@@ -15,14 +15,15 @@ struct StepForce {
   double gap_begin = 0;           // um, > 0
   double singular = 0;            // c/dt times the viscosity, pN
   double linear = 0;              // the rest of the resistance over dt, pN/um, that of 1/h0 left out
+  double turn = 0;                // um, the part of the change of the gap that the axis's turning makes: it meets no linear resistance
 
-  double operator()(double gap) const { return colloidal(gap).force + singular * std::log(gap_begin / gap) - linear * (gap - gap_begin); }
+  double operator()(double gap) const { return colloidal(gap).force + singular * std::log(gap_begin / gap) - linear * (gap - gap_begin - turn); }
   // As the system was linearised about the guess.
   double tangent(double gap) const {
     const double guess = geometry.gap;
     const forces::PairTerm t = colloidal(guess);
     return t.force + std::max(t.stiffness, 0.0) * (guess - gap) + singular * (std::log(gap_begin / guess) + (guess - gap) / guess) -
-           linear * (gap - gap_begin);
+           linear * (gap - gap_begin - turn);
   }
 
  private:

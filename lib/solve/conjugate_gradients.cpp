@@ -15,6 +15,17 @@ double sum_of(const std::vector<double>& partial) {
   return sum;
 }
 
+// A bound on the error's energy e A e from one particle's residual r: A is at least the particles' own resistance. The preconditioned
+// residual alone says little of a cluster of bonded particles: what moves it as a whole is small against the stiffness of its bonds.
+template <int D>
+double energy_bound(const ParticleTerm& t, const double* r) {
+  double sum = (r[0] * r[0] + r[1] * r[1]) / t.across + r[2] * r[2] / t.along;
+  if (D == 6) sum += (r[3] * r[3] + r[4] * r[4]) / t.spin_across + r[5] * r[5] / t.spin_along;
+  return sum;
+}
+// A residual that the bonds take up among themselves counts in that bound and moves nothing: it may be so many times the error asked for.
+constexpr double bound_over_tolerance = 30;
+
 template <int D>
 SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const ConjugateGradientOptions& options) {
   constexpr int S = stride<D>;
@@ -37,9 +48,10 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   const BlockJacobi<D> preconditioner(system);
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
-  std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count);
+  std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count);
   SolveReport report;
   double rz = 0, bb = 0, target = 0;
+  double energy = 0;  // x A x so far; what is missing is e A e
   bool done = false;
   const auto begin_of = [&](int c) { return topology.chunks().begin[c]; };
 #pragma omp parallel
@@ -70,6 +82,9 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
         for (int k = begin_of(c); k < begin_of(c + 1); ++k)
           if (system.held[k]) r[static_cast<std::size_t>(k) * S + 2] = p[static_cast<std::size_t>(k) * S + 2] = 0;
       partial_bb[c] = preconditioner.solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
+      double sum = 0;
+      for (std::size_t q = begin; q < end; ++q) sum += (x[q] - (held ? given[q] : 0.0)) * (r[q] + p[q]);
+      partial_energy[c] = sum;
       for (std::size_t q = begin; q < end; ++q) r[q] = p[q];
       partial_rz[c] = preconditioner.solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
       for (std::size_t q = begin; q < end; ++q) p[q] = z[q];
@@ -79,9 +94,20 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       bb = std::min(sum_of(partial_bb), options.largest_scale);
       rz = sum_of(partial_rz);
       target = options.tolerance * options.tolerance * bb;
-      done = !(rz > target);
+      energy = sum_of(partial_energy);
+      done = !(rz > 0);
     }
     while (!done) {
+      if (rz <= target) {
+#pragma omp for schedule(static)
+        for (int c = 0; c < count; ++c) {
+          double sum = 0;
+          for (int k = begin_of(c); k < begin_of(c + 1); ++k) sum += energy_bound<D>(system.particle[k], &r[static_cast<std::size_t>(k) * S]);
+          partial_energy[c] = sum;
+        }
+        const double most = bound_over_tolerance * options.tolerance;
+        if (sum_of(partial_energy) <= most * most * energy) break;
+      }
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, p.data(), ap.data(), sums);
       if (flows) {
@@ -100,9 +126,10 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
         for (std::size_t q = static_cast<std::size_t>(begin_of(c)) * S; q < static_cast<std::size_t>(begin_of(c + 1)) * S; ++q) p[q] = z[q] + beta * p[q];
 #pragma omp single
       {
+        energy += alpha * rz;
         rz = next;
         ++report.iterations;
-        done = !(rz > target) || report.iterations >= options.max_iterations;  // a NaN also ends the loop
+        done = !(rz > 0) || report.iterations >= options.max_iterations;  // a NaN also ends the loop
       }
     }
   }

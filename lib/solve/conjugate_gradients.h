@@ -13,7 +13,7 @@ namespace pigment::solve {
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
-  double residual = -1;  // sqrt(r M^-1 r / scale)
+  double residual = -1;  // sqrt(r M^-1 r / scale); block Jacobi also looks at the error's energy e A e
   double scale = 0;      // b M^-1 b, b with what held particles contribute; or the largest scale asked for, if that is smaller
   std::string message;
 };

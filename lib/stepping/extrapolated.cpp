@@ -10,7 +10,7 @@ namespace {
 // half steps less that of one whole step is of second order; their difference is the error of the half steps' result, which the
 // step control holds.
 // Extrapolating knows nothing of contact. A particle that it would bring nearer to another than a fifth of the gap that the half
-// steps leave (which never cross) stays where the half steps put it; one that it would bring through the surface, or nearer to
+// steps leave (which never cross; nine tenths where that is a tenth of a Debye length) stays where the half steps put it; one that it would bring through the surface, or nearer to
 // the substrate than that, stops there.
 class Extrapolated final : public Integrator {
  public:
@@ -81,7 +81,7 @@ class Extrapolated final : public Integrator {
       const std::vector<double> end = context.gaps(a.position);
       a.last.check.smallest_gap = end.empty() ? a.last.check.smallest_gap : *std::min_element(end.begin(), end.end());
       for (std::size_t p = 0; p < gap.size(); ++p)
-        if (gap_halves[p] > 0 && end[p] < nearest * gap_halves[p]) {
+        if (gap_halves[p] > 0 && end[p] < context.nearest_share_at(gap_halves[p]) * gap_halves[p]) {
           const auto [i, j] = context.pair(p);
           const bool i_moved = keep_halves(i), j_moved = keep_halves(j);
           if (i_moved || j_moved) settled = false;
@@ -91,7 +91,6 @@ class Extrapolated final : public Integrator {
   }
 
  private:
-  static constexpr double nearest = StepContext::nearest_share;
   static bool take(Attempt& a, const StepSolution& s) {
     a.last = s;
     a.iterations += s.iterations;

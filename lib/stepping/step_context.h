@@ -66,6 +66,9 @@ class StepContext {
   // The height z of a particle, brought back between the surface (or the height safe_z, where that is above it) and a fifth of
   // the gap that safe_z leaves to the substrate.
   static constexpr double nearest_share = 0.2;
+  // The share of a pair's gap that extrapolating may leave: where forces are steepest, within a tenth of the Debye length of contact,
+  // most of it. A bond pressed to a fifth of its length pushes a thousand times as hard as anything that acts on it.
+  double nearest_share_at(double gap) const { return gap < 0.1 * gap_scale_ ? 0.9 : nearest_share; }
   double height_within(std::size_t particle, double z, double safe_z, double surface) const;
   // Whether a particle that `safe` leaves outside a rough substrate is nearer to it at `position` than a fifth of that gap.
   bool too_near_substrate(std::size_t particle, const Vec3& position, const Vec3& safe) const;
