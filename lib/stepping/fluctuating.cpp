@@ -37,10 +37,15 @@ class Fluctuating final : public Integrator {
                                    treatment_, {});
     a.iterations += s.iterations;
     a.solves += s.solves;
+    Vec3Array u, w, end;
     if (s.good) {
-      Vec3Array u, w;
       context.in_file_order(s.velocity, u, w);
-      a.position = moved(a.position, u, dt / parts);
+      end = moved(a.position, u, dt / parts);
+      // Met only in steps in which spheres diffuse over their own size.
+      s.good = noise.level == deepest || !context.overlaps_unseen(state.position, a.position, end);
+    }
+    if (s.good) {
+      a.position = std::move(end);
       accumulate(a.velocity, u, 1 / parts);
       accumulate(a.angular_velocity, w, 1 / parts);
       s.check.smallest_gap = std::min(s.check.smallest_gap, a.last.check.smallest_gap);

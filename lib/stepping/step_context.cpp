@@ -135,6 +135,20 @@ bool StepContext::too_near_substrate(std::size_t k, const Vec3& position, const 
   return gap > 0 && std::isfinite(gap) && assembly_->rough_gap(position, a) < nearest_share * gap;
 }
 
+bool StepContext::overlaps_unseen(const Vec3Array& listed, const Vec3Array& begin, const Vec3Array& end) const {
+  if (!problem_.interactions.lubrication()) return false;
+  const auto& radius = problem_.particles.radius;
+  double farthest = 0;
+  for (std::size_t k = 0; k < begin.size(); ++k) farthest = std::max(farthest, (end[k] - listed[k]).squaredNorm());
+  if (const double smallest = *std::min_element(radius.begin(), radius.end()); farthest < smallest * smallest) return false;
+  const auto gap = [&](const Vec3Array& position, std::int32_t i, std::int32_t j) {
+    return problem_.cell.minimum_image(position[j] - position[i]).norm() - radius[i] - radius[j];
+  };
+  for (const auto& [i, j] : neighbours::find_pairs(problem_.cell, end, radius, {0, 1e-6, 0}))
+    if (gap(end, i, j) <= 0 && gap(begin, i, j) > 0) return true;
+  return false;
+}
+
 double StepContext::gap_error(const std::vector<double>& gap, const std::vector<double>& difference) const {
   const double scale = gap_scale_;
   double sum = 0;

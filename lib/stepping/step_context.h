@@ -72,6 +72,9 @@ class StepContext {
   double height_within(std::size_t particle, double z, double safe_z, double surface) const;
   // Whether a particle that `safe` leaves outside a rough substrate is nearer to it at `position` than a fifth of that gap.
   bool too_near_substrate(std::size_t particle, const Vec3& position, const Vec3& safe) const;
+  // Whether two spheres that are apart at `begin` overlap at `end`: lubrication lets none through that the list has, and it has what comes
+  // near within the smallest radius of `listed`, where the step began.
+  bool overlaps_unseen(const Vec3Array& listed, const Vec3Array& begin, const Vec3Array& end) const;
   // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
   // gap + Debye length.
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;

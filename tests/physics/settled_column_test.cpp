@@ -104,12 +104,15 @@ TEST(SettledColumn, FollowsCarnahanAndStarling) {
 
 // A step in which spheres diffuse over their own size: pairs that noise brings together from beyond the reach of lubrication are known
 // before it. Unseen, they came to overlap, and the noise of their contact threw them a thousand diameters away.
-TEST(CoarseStep, NoPairPassesUnseen) {
+class CoarseStep : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(CoarseStep, NoPairPassesUnseen) {
   constexpr double a = 0.1, spacing = 0.4;
   constexpr int side = 4;
   stepping::Problem problem = test::empty_problem();
   problem.stepping = {};
   problem.stepping.time_step = 0.4;
+  problem.seed = GetParam();
   problem.interactions.liquid.temperature = 353.15;
   problem.interactions.brownian.emplace();
   problem.interactions.brownian->model = forces::BrownianParameters::Model::FluctuationDissipation;
@@ -121,7 +124,6 @@ TEST(CoarseStep, NoPairPassesUnseen) {
     test::add_particle(problem, position, a, spacing * Vec3(k % side, k / side % side, 20 + k / (side * side)));
   stepping::RunState state = stepping::initial_state(problem, position);
   stepping::Stepper stepper(problem, state);
-  int overlapping = 0;
   for (int s = 0; s < 150; ++s) {
     const Vec3Array before = state.position;
     stepper.advance(state, 0.4);
@@ -133,9 +135,9 @@ TEST(CoarseStep, NoPairPassesUnseen) {
     for (std::size_t i = 0; i < before.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         smallest = std::min(smallest, problem.cell.minimum_image(state.position[i] - state.position[j]).norm());
-    // Beyond seven deviations a pair may still pass unlisted and overlap for a step: in one run of six, by a tenth of the diameter.
-    ASSERT_GT(smallest, 1.5 * a) << "step " << s;
-    overlapping += smallest < 2 * a;
+    // What still overlaps after a step's path was halved twelve times is left so: 4 % of the radius, one step of 900, is the most met.
+    ASSERT_GT(smallest, 1.9 * a) << "step " << s;
   }
-  EXPECT_LE(overlapping, 3);
 }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, CoarseStep, testing::Range<std::uint64_t>(1, 7));
