@@ -33,16 +33,20 @@ class Fluctuating final : public Integrator {
   void go(StepContext& context, const RunState& state, double dt, const assembly::NoiseInterval& noise, Attempt& a) const {
     const auto parts = static_cast<double>(std::uint64_t{1} << noise.level);
     const double begin = state.time + dt * static_cast<double>(noise.part) / parts;
-    StepSolution s = context.solve({a.position, a.last.protrusion, begin, dt / parts, noise, a.last.check.surface_height, state.surface_velocity},
-                                   treatment_, {});
-    a.iterations += s.iterations;
-    a.solves += s.solves;
+    StepSolution s;
     Vec3Array u, w, end;
-    if (s.good) {
+    // Pairs that were not listed are met only in steps in which spheres diffuse over their own size: once listed, or in a shorter part.
+    for (bool again : {true, false}) {
+      s = context.solve({a.position, a.last.protrusion, begin, dt / parts, noise, a.last.check.surface_height, state.surface_velocity},
+                        treatment_, {});
+      a.iterations += s.iterations;
+      a.solves += s.solves;
+      if (!s.good) break;
       context.in_file_order(s.velocity, u, w);
       end = moved(a.position, u, dt / parts);
-      // Met only in steps in which spheres diffuse over their own size.
-      s.good = noise.level == deepest || !context.overlaps_unseen(state.position, a.position, end);
+      if (!context.overlaps_unseen(a.position, end)) break;
+      s.good = noise.level == deepest;
+      if (again) context.list_at(a.position, begin);
     }
     if (s.good) {
       a.position = std::move(end);

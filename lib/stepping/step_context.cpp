@@ -67,7 +67,8 @@ void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
 }
 
 void StepContext::refresh_list(RunState& state) {
-  if (!list_.is_spent(state.position)) return;
+  if (!listed_within_step_ && !list_.is_spent(state.position)) return;
+  listed_within_step_ = false;
   const Liquid liquid = liquid_at_time(state.time);
   state.list_reference = state.position;
   state.list_temperature = liquid.temperature;
@@ -135,11 +136,19 @@ bool StepContext::too_near_substrate(std::size_t k, const Vec3& position, const 
   return gap > 0 && std::isfinite(gap) && assembly_->rough_gap(position, a) < nearest_share * gap;
 }
 
-bool StepContext::overlaps_unseen(const Vec3Array& listed, const Vec3Array& begin, const Vec3Array& end) const {
+// The state keeps the positions of the list before, from which some particle has moved further than a skin: whoever resumes makes
+// the next step's list at the same positions.
+void StepContext::list_at(const Vec3Array& position, double time) {
+  make_list(position, liquid_at_time(time));
+  solver_.forget_factor();
+  listed_within_step_ = true;
+}
+
+bool StepContext::overlaps_unseen(const Vec3Array& begin, const Vec3Array& end) const {
   if (!problem_.interactions.lubrication()) return false;
   const auto& radius = problem_.particles.radius;
   double farthest = 0;
-  for (std::size_t k = 0; k < begin.size(); ++k) farthest = std::max(farthest, (end[k] - listed[k]).squaredNorm());
+  for (std::size_t k = 0; k < begin.size(); ++k) farthest = std::max(farthest, (end[k] - list_.reference[k]).squaredNorm());
   if (const double smallest = *std::min_element(radius.begin(), radius.end()); farthest < smallest * smallest) return false;
   const auto gap = [&](const Vec3Array& position, std::int32_t i, std::int32_t j) {
     return problem_.cell.minimum_image(position[j] - position[i]).norm() - radius[i] - radius[j];

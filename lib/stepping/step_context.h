@@ -73,8 +73,10 @@ class StepContext {
   // Whether a particle that `safe` leaves outside a rough substrate is nearer to it at `position` than a fifth of that gap.
   bool too_near_substrate(std::size_t particle, const Vec3& position, const Vec3& safe) const;
   // Whether two spheres that are apart at `begin` overlap at `end`: lubrication lets none through that the list has, and it has what comes
-  // near within the smallest radius of `listed`, where the step began.
-  bool overlaps_unseen(const Vec3Array& listed, const Vec3Array& begin, const Vec3Array& end) const;
+  // near within the smallest radius of where it was made.
+  bool overlaps_unseen(const Vec3Array& begin, const Vec3Array& end) const;
+  // Makes the list anew within a step; the next step makes its own.
+  void list_at(const Vec3Array& position, double time);
   // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
   // gap + Debye length.
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;
@@ -100,6 +102,7 @@ class StepContext {
   std::vector<std::int64_t> id_;  // engine order
   solve::PairSystem system_;
   solve::AdaptiveSolver solver_;
+  bool listed_within_step_ = false;
   double gap_scale_ = 0;  // um, at the temperature of the step solved last
 };
 
