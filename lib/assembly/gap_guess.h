@@ -15,8 +15,6 @@ inline bool off_guess(double gap, double guess, bool refined) {
   return refined ? std::abs(gap - guess) > 0.05 * guess : gap < 0.5 * guess;
 }
 
-inline double next_guess(double gap, double guess) { return std::clamp(gap, largest_fall * guess, largest_rise * guess); }
-
 // Where Newton's method goes on for one gap, when the gap that a solution of the linearised system gives is far from the one that the
 // force was linearised about.
 //

@@ -24,7 +24,7 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
 StepForce StepAssembly::substrate_step_force(int k) const {
   const double a = radius_[k], begin = position_[k].z() - a;
   static const std::vector<std::unique_ptr<forces::PreparedPairLaw>> none;
-  StepForce f{interactions_.substrate->colloidal ? laws_ : none, substrate_geometry_[k], begin, 0, 0, 0};
+  StepForce f{interactions_.substrate->colloidal ? laws_ : none, substrate_geometry_[k], begin};
   const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
   f.singular = liquid_.viscosity * resistance::squeeze_constant(a) / dt_;
   f.linear = liquid_.viscosity * resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular / dt_ - f.singular / at;

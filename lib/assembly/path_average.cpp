@@ -22,8 +22,6 @@ namespace pigment::assembly {
 
 namespace {
 
-// A guess may fall by this factor in one pass, so that a gap that came out negative is approached from above.
-constexpr double largest_fall = 0.2;
 // A pass is the last when every gap came out this near its guess, relative, or absolute (um): a fifth of the shortest length over
 // which a force between surfaces changes, that of Born's repulsion.
 constexpr double near_enough = 0.1, near_enough_at_contact = 1e-4;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "assembly/gap_guess.h"
+#include "assembly/step_force.h"
 #include "forces/surface_spring.h"
 #include "resistance/scene_resistance.h"
 #include "resistance/source_forms.h"
@@ -171,7 +172,8 @@ double RoughSubstrate::force_along_z(int k, const Laws& laws, double mu, double 
   return force;
 }
 
-void RoughSubstrate::refine(int k, const Vec3& end, bool newton, bool& again, bool& crossed) {
+void RoughSubstrate::refine(int k, const Laws& laws, double mu, double dt, const Vec3& end, bool newton, bool& again, bool& crossed) {
+  static const Laws none;
   bool was_open = true, near = false;
   for (Contact& c : contacts_[k]) {
     // A foot may vanish, and what is followed from it arrives at another: then the plane that it was tangent to goes on for the
@@ -186,7 +188,10 @@ void RoughSubstrate::refine(int k, const Vec3& end, bool newton, bool& again, bo
     if (interactions_.lubrication() && c.gap_begin > 0) {
       if (gap <= 0 && !newton) crossed = true;
       if (newton && off_guess(gap, guess, guess != c.gap_begin)) {
-        guess = next_guess(gap, guess);
+        const double singular = mu * c.squeeze_weight * resistance::squeeze_constant(c.squeeze_radius) / dt;
+        const StepForce force{interactions_.substrate->colloidal ? laws : none, c.geometry, c.gap_begin, singular,
+                              mu * c.scalars.perpendicular / dt - singular / c.gap_begin, 0, c.derjaguin};
+        guess = next_gap(gap, guess, force.tangent(gap), force);
         again = true;
       }
     } else if ((gap < 0) != (guess < 0)) {

@@ -34,7 +34,7 @@ class RoughSubstrate {
   // What the substrate presses particle k with, along z, pN, for its velocities u (D numbers).
   double force_along_z(int k, const Laws&, double viscosity, double dt, bool implicit, double absorption, int D, const double* u) const;
   // Judges where particle k ends and moves the guesses there.
-  void refine(int k, const Vec3& end, bool newton, bool& again, bool& crossed);
+  void refine(int k, const Laws&, double viscosity, double dt, const Vec3& end, bool newton, bool& again, bool& crossed);
   // Smallest distance of a sphere from the surface, um; infinite beyond one and a half radii.
   double gap(const Vec3& position, double radius) const;
 

@@ -291,7 +291,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
       if (rough_) {
         const Vec3 end = position_[k] + dt_ * Vec3(u[k * D], u[k * D + 1], u[k * D + 2]);
-        rough_->refine(k, end, newton_, check.refine, check.crossed);
+        rough_->refine(k, laws_, liquid_.viscosity, dt_, end, newton_, check.refine, check.crossed);
       } else if (interactions_.substrate && !path_) {
         const double gap = z - a, begin = position_[k].z() - a;
         double& guess = substrate_geometry_[k].gap;
@@ -360,7 +360,8 @@ double StepAssembly::rough_gap(const Vec3& position, double radius) const {
 
 StepForce StepAssembly::pair_step_force(std::size_t p) const {
   const forces::PairGeometry& g = geometry_[p];
-  StepForce f{laws_, g, gap_begin_[p], 0, 0, turn_[p]};
+  StepForce f{laws_, g, gap_begin_[p]};
+  f.turn = turn_[p];
   const resistance::PairScalars& s = scalars_[p];
   if (s.squeeze > 0) {
     const double singular = liquid_.viscosity * squeeze_weight(p) * resistance::squeeze_constant(g.reduced_radius()) / dt_;

@@ -16,6 +16,7 @@ struct StepForce {
   double singular = 0;            // c/dt times the viscosity, pN
   double linear = 0;              // the rest of the resistance over dt, pN/um, that of 1/h0 left out
   double turn = 0;                // um, the part of the change of the gap that the axis's turning makes: it meets no linear resistance
+  double share = 1;               // by which the laws' forces are multiplied: those of a curved wall over the plane's
 
   double operator()(double gap) const { return colloidal(gap).force + singular * std::log(gap_begin / gap) - linear * (gap - gap_begin - turn); }
   // As the system was linearised about the guess.
@@ -33,8 +34,8 @@ struct StepForce {
     forces::PairTerm sum;
     for (const auto& law : laws) {
       const forces::PairTerm t = law->switched(g);
-      sum.force += t.force;
-      sum.stiffness += t.stiffness;
+      sum.force += share * t.force;
+      sum.stiffness += share * t.stiffness;
     }
     return sum;
   }

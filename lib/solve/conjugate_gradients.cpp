@@ -52,7 +52,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   SolveReport report;
   double rz = 0, bb = 0, target = 0;
   double energy = 0;  // x A x so far; what is missing is e A e
-  bool done = false;
+  bool done = false, settled = false;
   const auto begin_of = [&](int c) { return topology.chunks().begin[c]; };
 #pragma omp parallel
   {
@@ -106,7 +106,11 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
           partial_energy[c] = sum;
         }
         const double most = bound_over_tolerance * options.tolerance;
-        if (sum_of(partial_energy) <= most * most * energy) break;
+        if (sum_of(partial_energy) <= most * most * energy) {
+#pragma omp single
+          settled = true;
+          break;
+        }
       }
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, p.data(), ap.data(), sums);
@@ -136,7 +140,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   from_strided<D>(x, x_out);
   report.scale = bb;
   report.residual = bb > 0 ? std::sqrt(rz / bb) : 0;
-  report.converged = std::isfinite(rz) && rz <= target;
+  report.converged = settled || (std::isfinite(rz) && rz <= 0);
   if (!report.converged)
     report.message = std::isfinite(rz) ? "no convergence in " + std::to_string(report.iterations) + " iterations"
                                        : "the residual is not a finite number";

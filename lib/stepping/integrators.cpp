@@ -1,39 +1,35 @@
 #include "stepping/integrator.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+
+#include "assembly/interaction_curves.h"
 
 namespace pigment::stepping {
 
 namespace {
 
-// Whether two particles of mean radius fall into contact: somewhere outside the smallest gap of the walk attraction is left, and the
-// energy that they would have to climb on the way in is less than 5 kT.
+// Whether two particles of mean radius, those that are charged least, fall into contact: they have to climb less than 5 kT on the way in,
+// and contact holds them by more than that.
 bool coagulates(const Problem& problem) {
-  const auto& interactions = problem.interactions;
+  const assembly::Interactions& interactions = problem.interactions;
   const Liquid liquid = liquid_at(interactions.liquid, problem.dewatering.temperature_at(0, interactions.liquid.temperature));
   const auto& radius = problem.particles.radius;
-  double mean = 0;
-  for (double a : radius) mean += a / static_cast<double>(radius.size());
-  double smallest_potential = std::numeric_limits<double>::infinity();
-  for (double psi : interactions.surface_potential)
-    if (std::abs(psi) < std::abs(smallest_potential)) smallest_potential = psi;
-  std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws;
-  for (const auto& [name, law] : interactions.colloidal) laws.push_back(law->prepare(liquid));
-  const auto energy = [&](double gap) {
-    double sum = 0;
-    for (const auto& law : laws) sum += law->switched({gap, mean, mean, smallest_potential, smallest_potential}).energy;
-    return sum;
-  };
-  double lowest = 0, highest_climb = 0, deepest = 0;  // on the way in, from where nothing acts
+  const auto& potentials = interactions.surface_potential;
+  if (radius.empty() || potentials.empty() || interactions.colloidal.empty()) return false;
+  const double mean = std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+  const double potential =
+      *std::min_element(potentials.begin(), potentials.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const assembly::InteractionEvaluator pair(interactions, liquid);
+  double lowest = 0, highest_climb = 0;  // on the way in, from where nothing acts to the Born minimum
   for (double gap = 0.5; gap > 3e-4; gap *= 0.95) {
-    const double e = energy(gap);
-    lowest = std::min(lowest, e);
-    deepest = std::min(deepest, e);
-    highest_climb = std::max(highest_climb, e - lowest);
+    const double energy = pair.total({assembly::Partner::Sphere, mean, mean, potential, potential}, gap).energy;
+    lowest = std::min(lowest, energy);
+    highest_climb = std::max(highest_climb, energy - lowest);
   }
-  const double kT = liquid.thermal_energy();
-  return highest_climb < 5 * kT && deepest < -5 * kT;
+  const double limit = 5 * liquid.thermal_energy();
+  return highest_climb < limit && lowest < -limit;
 }
 
 }  // namespace

@@ -149,7 +149,9 @@ bool StepContext::overlaps_unseen(const Vec3Array& begin, const Vec3Array& end) 
   const auto& radius = problem_.particles.radius;
   double farthest = 0;
   for (std::size_t k = 0; k < begin.size(); ++k) farthest = std::max(farthest, (end[k] - list_.reference[k]).squaredNorm());
-  if (const double smallest = *std::min_element(radius.begin(), radius.end()); farthest < smallest * smallest) return false;
+  const double smallest = *std::min_element(radius.begin(), radius.end());
+  const double seen = std::min(smallest, 0.5 * list_.range.limit(smallest, smallest));
+  if (farthest < seen * seen) return false;
   const auto gap = [&](const Vec3Array& position, std::int32_t i, std::int32_t j) {
     return problem_.cell.minimum_image(position[j] - position[i]).norm() - radius[i] - radius[j];
   };
@@ -223,7 +225,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     // Bonds that open and close within the step may have no solution that one linear system has too; all gaps are open, and what is
     // left is a tenth of the error that the step may make.
     const double miss = std::sqrt(s.check.miss / static_cast<double>(id_.size()));
-    const bool near = pass >= long_refinement && s.check.only_pairs && !s.check.crossed && miss < 0.1 * problem_.stepping.tolerance;
+    const bool near = pass >= long_refinement && !problem_.interactions.pressure_limited() && s.check.only_pairs && !s.check.crossed && miss < 0.1 * problem_.stepping.tolerance;
     if (s.check.refine && !near) continue;
     // Without lubrication nothing keeps spheres apart but their forces, and a scene may have none.
     s.good = !s.check.crossed || !problem_.interactions.lubrication();

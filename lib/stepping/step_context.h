@@ -72,8 +72,8 @@ class StepContext {
   double height_within(std::size_t particle, double z, double safe_z, double surface) const;
   // Whether a particle that `safe` leaves outside a rough substrate is nearer to it at `position` than a fifth of that gap.
   bool too_near_substrate(std::size_t particle, const Vec3& position, const Vec3& safe) const;
-  // Whether two spheres that are apart at `begin` overlap at `end`: lubrication lets none through that the list has, and it has what comes
-  // near within the smallest radius of where it was made.
+  // Whether two spheres that are apart at `begin` overlap at `end`: lubrication lets none through that the list has, and it has all that
+  // touch while nobody moves by half its reach.
   bool overlaps_unseen(const Vec3Array& begin, const Vec3Array& end) const;
   // Makes the list anew within a step; the next step makes its own.
   void list_at(const Vec3Array& position, double time);

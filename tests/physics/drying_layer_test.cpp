@@ -9,6 +9,7 @@
 #include "packing/pack_layer.h"
 #include "stepping/consolidate.h"
 #include "support/one_layer.h"
+#include "support/small_layer.h"
 
 using namespace pigment;
 
@@ -21,33 +22,17 @@ struct SmallLayer {
 
 SmallLayer small_layer(bool brownian) {
   SmallLayer small;
-  packing::Recipe recipe;
-  recipe.layer.thickness = 4;
-  recipe.layer.solids = 0.65;
-  recipe.layer.width = 2.5;
-  recipe.packing.minimum_gap = 0.002;
-  Species species;
-  species.name = "pigment";
-  species.size.kind = SizeLaw::Kind::Lognormal;
-  species.size.mean = 1.5;
-  species.size.standard_deviation = 10;
-  species.size.median = 0.2225;
-  species.size.geometric_standard_deviation = 7.05;
-  species.size.min = 0.25;
-  species.size.max = 1.0;
-  recipe.species = {species};
-  const packing::Packing packed = packing::pack_layer(recipe);
-  stepping::Problem& problem = small.problem;
-  problem.particles = packed.layer.particles;
-  problem.cell = packed.layer.cell;
+  SizeLaw law;
+  law.mean = 1.5;
+  law.standard_deviation = 10;
+  law.median = 0.2225;
+  law.geometric_standard_deviation = 7.05;
+  law.min = 0.25;
+  law.max = 1.0;
+  const packing::Packing packed = packing::pack_layer(test::lognormal_recipe(4, 0.65, law));
+  stepping::Problem& problem = small.problem = test::charged_layer(packed);
   small.position = packed.layer.position;
-  auto document = config::Document::from_text("colloidal: {electrostatic: {debye_length: 5 nm}, van_der_waals: {}, born: {}}");
-  assembly::Interactions& in = problem.interactions;
-  in.colloidal = forces::read_colloidal(document.root().block("colloidal"));
-  in.surface_potential = {-25};
-  in.substrate.emplace();
-  in.free_surface.emplace();
-  if (brownian) in.brownian.emplace();
+  if (brownian) problem.interactions.brownian.emplace();
   problem.dewatering.time = {0, 10, 50};
   problem.dewatering.absorption_flux = {0.02, 0.01, 0.01};
   problem.dewatering.evaporation_flux = {0.01, 0.02, 0.01};

@@ -7,6 +7,7 @@
 #include "packing/pack_layer.h"
 #include "packing/statistics.h"
 #include "stepping/consolidate.h"
+#include "support/small_layer.h"
 
 using namespace pigment;
 
@@ -15,36 +16,21 @@ namespace {
 constexpr double final_solids = 0.78;  // by mass; such a layer jams at 82 to 83 %
 
 packing::Recipe recipe_of(std::uint64_t seed) {
-  packing::Recipe recipe;
+  SizeLaw law;
+  law.mean = 0.6;
+  law.standard_deviation = 0.3;
+  law.median = 0.5367;
+  law.geometric_standard_deviation = 1.604;
+  law.min = 0.3;
+  law.max = 0.9;
+  packing::Recipe recipe = test::lognormal_recipe(3, 0.60, law);
   recipe.seed = seed;
-  recipe.layer.thickness = 3;
-  recipe.layer.solids = 0.60;
-  recipe.layer.width = 2.5;
-  recipe.packing.minimum_gap = 0.002;
-  Species species;
-  species.name = "pigment";
-  species.size.kind = SizeLaw::Kind::Lognormal;
-  species.size.mean = 0.6;
-  species.size.standard_deviation = 0.3;
-  species.size.median = 0.5367;
-  species.size.geometric_standard_deviation = 1.604;
-  species.size.min = 0.3;
-  species.size.max = 0.9;
-  recipe.species = {species};
   return recipe;
 }
 
 stepping::Problem problem_of(const packing::Packing& packed) {
-  stepping::Problem problem;
-  problem.particles = packed.layer.particles;
-  problem.cell = packed.layer.cell;
-  auto document = config::Document::from_text("colloidal: {electrostatic: {debye_length: 5 nm}, van_der_waals: {}, born: {}}");
-  assembly::Interactions& in = problem.interactions;
-  in.colloidal = forces::read_colloidal(document.root().block("colloidal"));
-  in.surface_potential = {-25};
-  in.substrate.emplace();
-  in.height_field = packed.layer.substrate;
-  in.free_surface.emplace();
+  stepping::Problem problem = test::charged_layer(packed);
+  problem.interactions.height_field = packed.layer.substrate;
   // Evenly in 20 ms from 60 to 78 wt%: of thickness times volume fraction phi of solids, the liquid that goes.
   const double phi = (0.6 / 2.7) / (0.6 / 2.7 + 0.4), dry = 3 * phi * 2.7;
   const double lost = dry * (0.4 / 0.6 - (1 - final_solids) / final_solids);

@@ -8,6 +8,7 @@
 
 #include "assembly/step_assembly.h"
 #include "model/liquid.h"
+#include "support/first_step.h"
 
 using namespace pigment;
 using Eigen::MatrixXd;
@@ -15,18 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-struct Cluster {
-  Particles particles;
-  Vec3Array position;  // about its middle, so that rigid motions are of the order of its size
-
-  void add(double radius, const Vec3& at) {
-    particles.radius.push_back(radius);
-    particles.mass.push_back(2.7e-3 * Particles::sphere_volume(radius));
-    particles.species.push_back(0);
-    particles.id.push_back(static_cast<std::int64_t>(position.size()));
-    position.push_back(at);
-  }
-};
+using Cluster = test::Spheres;  // about its middle, so that rigid motions are of the order of its size
 
 // n spheres of radii between 1/ratio and 1, evenly in the logarithm; each new one beside a random one that is there, at a gap
 // between smallest and 0.3 of the smaller radius, again evenly in the logarithm, and overlapping none.

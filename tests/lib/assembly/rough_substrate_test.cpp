@@ -12,6 +12,7 @@
 #include "resistance/scene_resistance.h"
 #include "resistance/source_forms.h"
 #include "solve/conjugate_gradients.h"
+#include "support/first_step.h"
 
 using namespace pigment;
 using Eigen::MatrixXd;
@@ -21,45 +22,14 @@ namespace {
 
 const Cell cell{4, 4, 20};
 
-// Spheres over a rough substrate and the system of their first step; viscosity 1 mPa s.
-struct FirstStep {
-  assembly::Interactions interactions;
-  Particles particles;
-  Vec3Array position;
-  assembly::Film film{20, 20, 0, 0};
-  assembly::Treatment treatment = assembly::Treatment::Newton;
-  neighbours::NeighbourList list;
-  std::unique_ptr<assembly::StepAssembly> step;
-  solve::PairSystem system;
-
+// Spheres over a rough substrate and the system of their first step.
+struct FirstStep : test::FirstStep {
   explicit FirstStep(const HeightMap& map) {
-    interactions.surface_potential = {-25};
-    interactions.liquid.viscosity = 1;
-    interactions.liquid.relative_permittivity = 80;
+    cell = ::cell;
     interactions.substrate.emplace();
     interactions.height_field = std::make_shared<const HeightField>(map, cell);
   }
   const HeightField& field() const { return *interactions.height_field; }
-  void add(double radius, const Vec3& at) {
-    particles.radius.push_back(radius);
-    particles.mass.push_back(2.7e-3 * Particles::sphere_volume(radius));
-    particles.species.push_back(0);
-    particles.id.push_back(static_cast<std::int64_t>(position.size()));
-    position.push_back(at);
-  }
-  void colloidal(const std::string& laws) {
-    auto document = config::Document::from_text("colloidal: " + laws);
-    interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
-  }
-  void build(double dt = 0.01) {
-    const Liquid liquid = liquid_at(interactions.liquid, 298.15);
-    neighbours::PairRange range = assembly::pair_range(interactions, liquid);
-    range.skin = 0.1;
-    list = neighbours::make_neighbour_list(cell, position, particles.radius, range);
-    step = std::make_unique<assembly::StepAssembly>(interactions, particles, cell, list);
-    step->begin(position, film, liquid, dt, treatment, {}, std::vector<double>(position.size(), 0.0));
-    step->build(system);
-  }
   MatrixXd matrix() const {
     const int n = static_cast<int>(system.right_hand_side.size());
     MatrixXd a(n, n);
@@ -251,7 +221,8 @@ struct Drained {
       for (const Vec3& q : layer.position) free = free && cell.minimum_image(p - q).norm() > 0.503;
       if (free) layer.add(0.25, p);
     }
-    layer.build(1e-3);
+    layer.dt = 1e-3;
+    layer.build();
     for (int pass = 0; pass < 25; ++pass) {
       EXPECT_TRUE(solve::conjugate_gradients(layer.system, u, {1e-13, 5000}).converged);
       if (!layer.step->refine(layer.system, u).refine) break;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "resistance/boundary_resistance.h"
+#include "support/first_step.h"
 
 using namespace pigment;
 using assembly::StepAssembly;
@@ -14,46 +15,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A few spheres of density 2700 kg/m3 in a liquid of viscosity 1 mPa s, and the system of their first step.
-struct FirstStep {
-  assembly::Interactions interactions;
-  Particles particles;
-  Cell cell{20, 20, 20};
-  Vec3Array position;
-  assembly::Film film{20, 20, 0, 0};
-  double dt = 0.01;
-  assembly::Treatment treatment = assembly::Treatment::Newton;
-  Vec3Array force;
-
-  neighbours::NeighbourList list;
-  std::unique_ptr<StepAssembly> step;
-  solve::PairSystem system;
-
-  FirstStep() {
-    interactions.surface_potential = {-25};
-    interactions.liquid.viscosity = 1;
-    interactions.liquid.relative_permittivity = 80;
-  }
-  void add(double radius, Vec3 at) {
-    particles.radius.push_back(radius);
-    particles.mass.push_back(2.7e-3 * 4.0 / 3.0 * pi * std::pow(radius, 3));
-    particles.species.push_back(0);
-    particles.id.push_back(static_cast<std::int64_t>(position.size()));
-    position.push_back(at);
-  }
-  void colloidal(const std::string& laws) {
-    auto document = config::Document::from_text("colloidal: " + laws);
-    interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
-  }
-  void build() {
-    const Liquid liquid = liquid_at(interactions.liquid, 298.15);
-    neighbours::PairRange range = assembly::pair_range(interactions, liquid);
-    range.skin = 0.1;
-    list = neighbours::make_neighbour_list(cell, position, particles.radius, range);
-    step = std::make_unique<StepAssembly>(interactions, particles, cell, list);
-    step->begin(position, film, liquid, dt, treatment, force, std::vector<double>(position.size(), 0.0));
-    step->build(system);
-  }
+struct FirstStep : test::FirstStep {
   // Right-hand side on a particle, file order.
   Vec3 rhs(std::size_t particle) const {
     const std::size_t D = system.unknowns_per_particle();
