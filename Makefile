@@ -11,7 +11,7 @@ TOP := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 STUDIES := $(patsubst workflows/%/Makefile,%,$(wildcard workflows/*/Makefile))
 
-.PHONY: all build test bench bench-peers speed hindered-drag brownian brownian-cost accuracy studies claims cost install clean format page-libraries deb help dependencies configure FORCE
+.PHONY: all build test bench bench-peers speed hindered-drag brownian brownian-cost accuracy studies studies-page claims cost install clean format page-libraries deb help dependencies configure FORCE
 
 all: study-first
 	@echo "The report of the first study: $(BUILD)/studies/first/report.html"
@@ -26,6 +26,7 @@ help:
 	@echo 'make study-NAME      run one study; SIZE=quick or SIZE=full, -j N, LAUNCH="srun -n1"'
 	@echo '                     studies: $(STUDIES)'
 	@echo 'make studies         run all of them; one report of their claims and figures: $(BUILD)/studies/report.html'
+	@echo 'make studies-page    the same report from the studies that have been run so far'
 	@echo 'make claims          write docs/claims.md from the studies that have been run'
 	@echo 'make cost            write docs/cost.md, what their runs took'
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
@@ -100,16 +101,24 @@ deb: build
 # Results live in $(BUILD)/studies/STUDY/CASE; workflows/rules.mk says how each file is made.
 STUDY_OPTIONS = --no-print-directory -C workflows/$(1) BUILD='$(abspath $(BUILD))'
 
-# One page of what all studies found, as far as they have claims.
+# One page of what all studies found.
 studies: $(STUDIES:%=study-%)
-	@shopt -s nullglob; found=(); \
-	for study in $(patsubst workflows/%/claims.py,$(BUILD)/studies/%,$(wildcard workflows/*/claims.py)); do \
-	  found+=(--claims $$study/claims.csv); for figure in $$study/figures/*.svg; do found+=(--figure $$figure); done; done; \
-	set -x; $(BUILD)/bin/pigment-report "$${found[@]}" --title Studies -o $(BUILD)/studies/report.html
+	@$(MAKE) --no-print-directory studies-page BUILD='$(BUILD)'
+
+# The same page from the studies that have been run so far, the others named in its title. One that was stopped halfway counts as not run.
+JUDGED := $(patsubst workflows/%/claims.py,%,$(wildcard workflows/*/claims.py))
+studies-page: build
+	@shopt -s nullglob; found=(); missing=(); \
+	for study in $(JUDGED); do folder=$(BUILD)/studies/$$study; \
+	  if [ ! -e $$folder/claims.csv ]; then missing+=($$study); continue; fi; \
+	  found+=(--claims $$folder/claims.csv); for figure in $$folder/figures/*.svg; do found+=(--figure $$figure); done; done; \
+	if [ $${#found[@]} = 0 ]; then echo 'no study has been run: make study-NAME first' >&2; exit 1; fi; \
+	title=Studies; if [ $${#missing[@]} != 0 ]; then title="Studies (not run: $${missing[*]})"; fi; \
+	set -x; $(BUILD)/bin/pigment-report "$${found[@]}" --title "$$title" -o $(BUILD)/studies/report.html
 	@echo 'The report of all studies: $(BUILD)/studies/report.html'
 
 claims:
-	workflows/replace_if_changed.sh docs/claims.md /usr/bin/python3 workflows/claims_page.py '$(BUILD)/studies' $(STUDIES)
+	workflows/replace_if_changed.sh docs/claims.md /usr/bin/python3 workflows/claims_page.py '$(BUILD)/studies' $(JUDGED)
 
 # What the runs took beside what pigment-scene forecast, as docs/cost.md. Nothing else should have run beside them.
 cost:

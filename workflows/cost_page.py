@@ -48,6 +48,7 @@ for study in studies:
             runs.append((int(forecast[1]), float(forecast[2]) * SECONDS[forecast[3]], took(path)))
     total = sum(map(took, stages)) + rest
     if not total:
+        rows.append(f"| {study} | not run |" + " |" * 6)
         continue
     everything += total
     line = f"| {study} | {size} | "
