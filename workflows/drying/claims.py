@@ -118,22 +118,23 @@ study.claim("4.2", "No excess of small particles in the filter cake, even where 
             f"share of the solid volume at the substrate over the middle, below 5 % ({STUDENT})", s.below(0.05))
 
 # ---- what the conclusions hang on
-variants = [("as chosen", tail)] + sorted({(label, re.sub(r"^[a-z]+-[0-9]+um|-s\d+", "", c)) for c in runs for label, hit in
-            (("strong evaporation doubled", c.endswith("-h80")), ("substrate ten times as open", c.endswith("-a10")),
-             ("Brownian motion" if not tail.endswith("-b") else "no Brownian motion", c.endswith("-b") != tail.endswith("-b") and not re.search("-(h80|a10|thesis|n3)$", c) and tail.split("-")[1] in c.split("-")),
-             ("hydrodynamics as printed", c.endswith("-thesis")), ("a third of the tolerance", c.endswith("-n3")),
-             ("larger piece of layer", re.search(r"-w(\d+)", c)[0] not in tail)) if hit})
+# Beside runs without Brownian motion, of which there are as many packings; the larger piece and the changed runs have one each.
+still = tail.removesuffix("-b")
+variants = [("as chosen", still), ("strong evaporation doubled", still + "-h80"), ("substrate ten times as open", still + "-a10"), ("Brownian motion", still + "-b"),
+            ("hydrodynamics as printed", still + "-thesis"), ("a third of the tolerance", still + "-n3")]
+anywhere = lambda end: re.sub(r"-w[\d.]+", "-w", end)     # noqa: E731
+changes = sorted({re.sub(r"^[a-z]+-[0-9]+um|-s\d+", "", c) for c in runs})
+variants += [("larger piece of layer", end) for end in changes if end != still and anywhere(end) == anywhere(still)]
 found = {}
 for label, end in variants:
-    a, b = sample("hll", thick, skin, end), sample("llh", thick, skin, end)
-    if a.n and b.n:
-        found[label] = (a, b, sample("hll", thick, cake, end), sample("llh", thick, cake, end))
+    if seeds("hll", thick, end) and seeds("llh", thick, end):
+        found[label] = tuple(sample(d, thick, what, end) for what in (skin, cake) for d in ("hll", "llh"))
 base = found["as chosen"]
 spread_of_seeds = {k: (base[k].error * np.sqrt(base[k].n) if base[k].n > 1 else np.inf) for k in range(4)}
 for label, (a, b, c, d) in found.items():
     if label == "as chosen":
         continue
-    gain = difference("hll", "llh", thick, skin)
+    gain = Sample(skin(x) - skin(y) for x, y in zip(seeds("hll", thick, still), seeds("llh", thick, still)))
     deviation = 2 * gain.error * np.sqrt(gain.n) if gain.n > 1 else np.inf
     holds = ((True if a.mean - b.mean > deviation else False if a.mean - b.mean < -deviation else None) if label.startswith(("strong", "substrate")) else
              bool(all(abs(x.mean - base[k].mean) < 3 * spread_of_seeds[k] for k, x in enumerate((a, b, c, d)))))
