@@ -2,7 +2,8 @@
 #   hll llh abs eva   drying strategy                      25um     thickness of the wet layer
 #   w4                width, um                            s1       seed of the packing and the noise
 #   p25               surface potential, mV (negative)     k5       Debye length, nm
-#   m2                viscosity of the liquid, mPa s       t7       surface tension, mN/m
+#   m2                viscosity of the liquid, mPa s, with the dewatering of 0.89 mPa s but for darcy
+#   t7                surface tension, mN/m
 #   b                 with Brownian motion                 darcy    fluxes as written, not scaled to a final solids content
 #   limited           surface limited to 500 kPa           thesis   hydrodynamics as printed in the source
 #   h80               evaporation while it is high, g/m2/s l8       while it is low
@@ -46,7 +47,10 @@ whole_set = $(if $(call table,$(1)),--set dewatering.file=$(word 2,$(call parts,
   $(if $(filter b,$(call parts,$(1))),,--set brownian=null) \
   $(if $(filter darcy,$(call parts,$(1))),--set dewatering.final_solids=null --set dewatering.reference_thickness=null,--set dewatering.reference_thickness="25 um") \
   $(if $(full),,$(if $(filter p0,$(call parts,$(1))),--set stepping.integrator=newton_implicit --set stepping.tolerance=0.1)) \
+  $(call same_flux,$(filter m%,$(call parts,$(1))),$(filter darcy,$(call parts,$(1)))) \
   $(if $(filter 10um,$(call parts,$(1))),--set output.every="2 ms") --set stepping.until="$(call until,$(1))"
+# Darcy's flux goes with permeability over viscosity, so that a permeability that rises with the viscosity leaves it as it is at 0.89 mPa s.
+same_flux = $(if $(1),$(if $(2),,--set dewatering.absorption.permeability="$(shell awk 'BEGIN { printf "%.9f", $(1:m%=%) / 0.89 }')e-18 m2"))
 # Every run ends by itself, at rest or where the surface presses on packed particles. At 83 wt-%, when the layer is a network of near
 # contacts, it may take several minutes of one core to the one or the other; quick runs end there instead. Those of 10 um, drained in a tenth of the
 # time, reach it before they can be at rest. Dear runs end at the last time that a claim asks for: those with Brownian motion, whose

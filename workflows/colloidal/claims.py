@@ -103,32 +103,39 @@ gains = [r.bands(at(r, 0.2))[0] for _, r in thinner]
 study.claim("4.4", "Below 2.5 nm, which the source could not afford, the cake goes on to sharpen", "not in the source", "at the substrate at 0.2 s: " + ", ".join(f"{k} nm {g:.1f}" for (k, _), g in zip(thinner, gains)) + " wt-% (one packing)",
             "more at 0.5 nm than at 2.5 nm by over 1 wt-%", None if thinner[-1][0] != "0.5" else bool(gains[-1] - gains[2] > 1))
 
-# ---- viscosity
-viscous = {end: [(m, next(r for c, r in runs.items() if f"-m{m}-" in c and c.endswith("-darcy") == bool(end))) for m in ("0.89", "2", "4")] for end in ("", "-darcy")}
-spreads = [r.spread(at(r, 0.2)) for _, r in viscous[""]]
-study.claim("4.4", "A higher viscosity keeps gradients", "Fig. 35", "s.d. of the profile at 0.2 s, same dewatering: " + ", ".join(f"{m} mPa s {x:.1f}" for (m, _), x in zip(viscous[""], spreads)) + " wt-%",
-            "rises with viscosity, by over 0.5 wt-% from 0.89 to 4 mPa s (one packing)", bool(spreads[0] < spreads[1] < spreads[2] and spreads[2] - spreads[0] > 0.5)
-            # Scaling both fluxes to one end leaves their course to the viscosity: with other solids at 0.2 s nothing can be compared.
-            if np.ptp([r.mean_wt[at(r, 0.2)] for _, r in viscous[""]]) < 0.5 else None)
-heights = [r.thickness[at(r, 0.1)] / UM for _, r in viscous["-darcy"]]
-study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.1 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for (m, _), x in zip(viscous["-darcy"], heights)) + "; with the same dewatering no difference",
-            "Darcy's flux falls with viscosity, and the fall of the surface is imposed", FROM_INPUT if heights[0] < heights[1] < heights[2] else False)
+# ---- viscosity: with one and the same dewatering, and with Darcy's law left to it
+VISCOSITIES = ("0.89", "2", "4")
+thin = next(re.match(r"hll-\d+um", c)[0] for c in study.cases if "-m2-" in c)
+viscous = {end: {m: [runs[c] for c in of_seeds(study.cases, f"{thin}{layer[layer.index('-w'):]}-k10-p50-m{m}{noise}{end}")] for m in VISCOSITIES} for end in ("", "-darcy")}
+KEEPS = 0.5     # wt-%, standard deviation of the profile by height: what we call a difference
+# Under Darcy's law the layers lose liquid at unlike rates: compared at the solids that all have reached at some time by 0.2 s.
+SOLIDS = min(r.mean_wt[at(r, 0.2)] for group in viscous["-darcy"].values() for r in group)
+same_solids = lambda r: int(np.argmin(np.abs(r.mean_wt - SOLIDS)))     # noqa: E731
+for end, when, how, label in (("", lambda r: at(r, 0.2), "the dewatering fixed", "0.2 s"), ("-darcy", same_solids, "Darcy's flux unscaled", f"{SOLIDS:.1f} wt-% of the whole layer")):
+    spreads = {m: Sample(r.spread(when(r)) for r in viscous[end][m]) for m in VISCOSITIES}
+    s = Sample(a.spread(when(a)) - b.spread(when(b)) for a, b in zip(viscous[end]["4"], viscous[end]["0.89"]))
+    study.claim("4.4", f"A higher viscosity keeps gradients, {how}", "Fig. 35", f"s.d. of the profile at {label}: " + ", ".join(f"{m} mPa s {x.text(2)}" for m, x in spreads.items()) + f" wt-%; from 0.89 to 4 mPa s {s.text(2)} more",
+                f"more by over {KEEPS} wt-% ({STUDENT})", s.above(KEEPS))
+heights = {end: [np.mean([r.thickness[at(r, 0.1)] / UM for r in viscous[end][m]]) for m in VISCOSITIES] for end in viscous}
+study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.1 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for m, x in zip(VISCOSITIES, heights["-darcy"])) + f"; with the dewatering fixed they differ by {np.ptp(heights['']) * 1000:.1f} nm",
+            "Darcy's flux falls with viscosity, and the fall of the surface is imposed", FROM_INPUT if heights["-darcy"][0] < heights["-darcy"][1] < heights["-darcy"][2] else False)
 
 # ---- figures
-def profile(axis, group, t, colour, label):
+def profile(axis, group, when, colour, label):
+    """Mean over seeds by height, with a band of one standard error. when: the frame, of a run."""
     grid = np.linspace(0, 1, 61)
-    rows = [np.interp(grid, np.linspace(0, 1, 2 * r.phi.shape[1] + 1)[1::2], r.wt[at(r, t)]) for r in group]
-    height = np.mean([r.thickness[at(r, t)] for r in group]) * grid / UM
+    rows = [np.interp(grid, np.linspace(0, 1, 2 * r.phi.shape[1] + 1)[1::2], r.wt[when(r)]) for r in group]
+    height = np.mean([r.thickness[when(r)] for r in group]) * grid / UM
     mean, error = np.mean(rows, axis=0), np.std(rows, axis=0) / np.sqrt(max(1, len(rows) - 1))
     axis.plot(mean, height, color=colour, label=label)
     axis.fill_betweenx(height, mean - error, mean + error, color=colour, alpha=0.2, lw=0)
     axis.set(xlabel="solids (wt-%)", ylabel="height (µm)", ylim=(0, None))
 
 
-figure, axes = study.figure("fig35-viscosity", "Solids at three viscosities, 20 um, 10 nm, 50 mV (Fig. 35): the same dewatering, and Darcy's as it is", columns=2)
-for axis, (end, title) in zip(axes, (("", "same dewatering, 0.2 s"), ("-darcy", "Darcy's flux, 0.1 s"))):
-    for i, (m, r) in enumerate(viscous[end]):
-        profile(axis, [r], 0.1 if end else 0.2, f"C{i}", f"{m} mPa s")
+figure, axes = study.figure("fig35-viscosity", f"Solids at three viscosities, {thin[4:-2]} um, 10 nm, 50 mV (Fig. 35), with one and the same dewatering and with Darcy's flux unscaled (at one time, and when all have lost as much liquid); mean of {len(PACKINGS)} packings, band: standard error", columns=3, width=70)
+for axis, (end, when, title) in zip(axes, (("", lambda r: at(r, 0.2), "dewatering fixed, 0.2 s"), ("-darcy", lambda r: at(r, 0.2), "Darcy unscaled, 0.2 s"), ("-darcy", same_solids, f"Darcy unscaled, at {SOLIDS:.1f} wt-%"))):
+    for i, m in enumerate(VISCOSITIES):
+        profile(axis, viscous[end][m], when, f"C{i}", f"{m} mPa s")
     axis.set(title=title)
 axes[0].legend()
 figure, axes = study.figure("fig36-thickness", f"Thickness by the particles against surface potential at several times, {THICK} um, 10 nm (Fig. 36); bars: standard error", columns=2)
@@ -140,7 +147,7 @@ for axis, (what, name) in zip(axes, (("z99", "99 % of the solids (µm)"), ("top_
 axes[1].legend()
 figure, axis = study.figure("fig37-solids-by-potential", f"Solids at 0.2 s by surface potential, {THICK} um, 10 nm (Fig. 37)")
 for i, p in enumerate(at_time(0.2)):
-    profile(axis, of_potential(p), 0.2, f"C{i}", f"{p} mV")
+    profile(axis, of_potential(p), lambda r: at(r, 0.2), f"C{i}", f"{p} mV")
 axis.legend()
 figure, axis = study.figure("fig38-shrinkage", f"Thickness in time by surface potential, {THICK} um, 10 nm (Fig. 38): line by the particles (z99), dashes the surface, which is imposed")
 for i, p in enumerate(POTENTIALS):
@@ -161,7 +168,7 @@ figure2, axes2 = study.figure("fig42-cumulative", f"Solids of all that lies belo
 for i, (k, r) in enumerate(thinner):
     group = double_layer(k)
     for axis, t in zip(axes, (0.1, 0.2)):
-        profile(axis, group, t, f"C{i}", f"{k} nm")
+        profile(axis, group, lambda r: at(r, t), f"C{i}", f"{k} nm")
         axis.set(title=f"{t:g} s")
     for axis in axes2:
         n = at(r, 0.2)
