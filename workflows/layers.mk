@@ -47,7 +47,7 @@ whole_set = $(if $(call table,$(1)),--set dewatering.file=$(word 2,$(call parts,
   $(if $(filter b,$(call parts,$(1))),,--set brownian=null) \
   $(if $(filter darcy,$(call parts,$(1))),--set dewatering.final_solids=null --set dewatering.reference_thickness=null,--set dewatering.reference_thickness="25 um") \
   $(if $(full),,$(if $(filter p0,$(call parts,$(1))),--set stepping.integrator=newton_implicit --set stepping.tolerance=0.1)) \
-  $(call same_flux,$(filter m%,$(call parts,$(1))),$(filter darcy,$(call parts,$(1)))) \
+  $(call same_flux,$(if $(call table,$(1)),,$(filter m%,$(call parts,$(1)))),$(filter darcy,$(call parts,$(1)))) \
   $(if $(filter 10um,$(call parts,$(1))),--set output.every="2 ms") --set stepping.until="$(call until,$(1))"
 # Darcy's flux goes with permeability over viscosity, so that a permeability that rises with the viscosity leaves it as it is at 0.89 mPa s.
 same_flux = $(if $(1),$(if $(2),,--set dewatering.absorption.permeability="$(shell awk 'BEGIN { printf "%.9f", $(1:m%=%) / 0.89 }')e-18 m2"))
