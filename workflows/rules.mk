@@ -184,6 +184,7 @@ $(foreach a,$(ANALYSES),$(eval from-$a := $a.yaml trajectory.sum))
 define checksums
 ifeq ($(DRY),)
 $(call made,$(1),seen): $(RESULTS)/%/.made/$(1).seen: $(RESULTS)/%/$(1).h5 $$$$(call gone,$$$$(@D)/$(1).sum)
+	@mkdir -p $$(@D)
 	@$(replace_if_changed) $$(@D)/$(1).sum sha256sum < $$<
 	@touch $$@
 $(call made,$(1),sum): %.sum: %.seen ; +$(look_again)
