@@ -54,7 +54,7 @@ same_flux = $(if $(1),$(if $(2),,--set dewatering.absorption.permeability="$(she
 # Every run ends by itself, at rest or where the surface presses on packed particles. At 83 wt-%, when the layer is a network of near
 # contacts, it may take several minutes of one core to the one or the other; quick runs end there instead. Those of 10 um, drained in a tenth of the
 # time, reach it before they can be at rest. Dear runs end at the last time that a claim asks for: those with Brownian motion, whose
-# steps are short at all times, those of the colloidal study, of a large piece, at other rates; and the uncharged ones, in which every
+# steps are short at all times, those of the colloidal study, of a large piece, at other rates; the thin ones of several viscosities, which are compared at 75 wt-%; and the uncharged ones, in which every
 # pair becomes a contact, at 0.01 s, with a tolerance of 0.1 and newton_implicit (half a minute even so).
 until-10um-hll := 0.07
 until-10um-llh := 0.18
@@ -74,7 +74,7 @@ until-e-lhh := 0.403
 until-e-llh := 0.424
 told = $(patsubst u%,%,$(filter u%,$(call parts,$(1))))
 strategy_of = $(if $(table),e-$(word 2,$(parts)),$(firstword $(parts)))
-quick_end = $(if $(full),,$(or $(if $(filter p0,$(parts)),0.01),$(if $(filter b h80 a10 thesis n3 w8 20um,$(parts))$(and $(filter k%,$(parts)),$(filter hll,$(parts))),0.2),\
+quick_end = $(if $(full),,$(or $(if $(filter p0,$(parts)),0.01),$(if $(filter 20um,$(parts)),0.12),$(if $(filter b h80 a10 thesis n3 w8,$(parts))$(and $(filter k%,$(parts)),$(filter hll,$(parts))),0.2),\
   $(if $(filter 10um,$(parts)),$(until-10um-$(strategy_of))),$(until-$(strategy_of))))
 until = $(or $(call told,$(1)),$(call quick_end,$(1)),0.8) s
 # $(call layers,CASES): what each changes and lacks. To be called before ../rules.mk is read.

@@ -108,16 +108,17 @@ VISCOSITIES = ("0.89", "2", "4")
 thin = next(re.match(r"hll-\d+um", c)[0] for c in study.cases if "-m2-" in c)
 viscous = {end: {m: [runs[c] for c in of_seeds(study.cases, f"{thin}{layer[layer.index('-w'):]}-k10-p50-m{m}{noise}{end}")] for m in VISCOSITIES} for end in ("", "-darcy")}
 KEEPS = 0.5     # wt-%, standard deviation of the profile by height: what we call a difference
-# Under Darcy's law the layers lose liquid at unlike rates: compared at the solids that all have reached at some time by 0.2 s.
-SOLIDS = min(r.mean_wt[at(r, 0.2)] for group in viscous["-darcy"].values() for r in group)
-same_solids = lambda r: int(np.argmin(np.abs(r.mean_wt - SOLIDS)))     # noqa: E731
-for end, when, how, label in (("", lambda r: at(r, 0.2), "the dewatering fixed", "0.2 s"), ("-darcy", same_solids, "Darcy's flux unscaled", f"{SOLIDS:.1f} wt-% of the whole layer")):
-    spreads = {m: Sample(r.spread(when(r)) for r in viscous[end][m]) for m in VISCOSITIES}
-    s = Sample(a.spread(when(a)) - b.spread(when(b)) for a, b in zip(viscous[end]["4"], viscous[end]["0.89"]))
-    study.claim("4.4", f"A higher viscosity keeps gradients, {how}", "Fig. 35", f"s.d. of the profile at {label}: " + ", ".join(f"{m} mPa s {x.text(2)}" for m, x in spreads.items()) + f" wt-%; from 0.89 to 4 mPa s {s.text(2)} more",
+# Compared when all have lost as much liquid, half-way to the 85 wt-% at which layers are at rest and even: with one dewatering at one time, under Darcy's law not.
+HALFWAY = 75
+halfway = lambda r: int(np.argmin(np.abs(r.mean_wt - HALFWAY)))     # noqa: E731
+for end, how in (("", "the dewatering fixed"), ("-darcy", "Darcy's flux unscaled")):
+    spreads = {m: Sample(r.spread(halfway(r)) for r in viscous[end][m]) for m in VISCOSITIES}
+    when = {m: np.mean([r.time[halfway(r)] for r in viscous[end][m]]) for m in VISCOSITIES}
+    s = Sample(a.spread(halfway(a)) - b.spread(halfway(b)) for a, b in zip(viscous[end]["4"], viscous[end]["0.89"]))
+    study.claim("4.4", f"A higher viscosity keeps gradients, {how}", "Fig. 35", f"s.d. of the profile when the layer has {HALFWAY} wt-%: " + ", ".join(f"{m} mPa s {x.text(2)} ({when[m]:.3f} s)" for m, x in spreads.items()) + f" wt-%; from 0.89 to 4 mPa s {s.text(2)} more",
                 f"more by over {KEEPS} wt-% ({STUDENT})", s.above(KEEPS))
-heights = {end: [np.mean([r.thickness[at(r, 0.1)] / UM for r in viscous[end][m]]) for m in VISCOSITIES] for end in viscous}
-study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.1 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for m, x in zip(VISCOSITIES, heights["-darcy"])) + f"; with the dewatering fixed they differ by {np.ptp(heights['']) * 1000:.1f} nm",
+heights = {end: [np.mean([r.thickness[at(r, 0.05)] / UM for r in viscous[end][m]]) for m in VISCOSITIES] for end in viscous}
+study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.05 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for m, x in zip(VISCOSITIES, heights["-darcy"])) + f"; with the dewatering fixed they differ by {np.ptp(heights['']) * 1000:.1f} nm",
             "Darcy's flux falls with viscosity, and the fall of the surface is imposed", FROM_INPUT if heights["-darcy"][0] < heights["-darcy"][1] < heights["-darcy"][2] else False)
 
 # ---- figures
@@ -132,19 +133,20 @@ def profile(axis, group, when, colour, label):
     axis.set(xlabel="solids (wt-%)", ylabel="height (µm)", ylim=(0, None))
 
 
-figure, axes = study.figure("fig35-viscosity", f"Solids at three viscosities, {thin[4:-2]} um, 10 nm, 50 mV (Fig. 35), with one and the same dewatering and with Darcy's flux unscaled (at one time, and when all have lost as much liquid); mean of {len(PACKINGS)} packings, band: standard error", columns=3, width=70)
-for axis, (end, when, title) in zip(axes, (("", lambda r: at(r, 0.2), "dewatering fixed, 0.2 s"), ("-darcy", lambda r: at(r, 0.2), "Darcy unscaled, 0.2 s"), ("-darcy", same_solids, f"Darcy unscaled, at {SOLIDS:.1f} wt-%"))):
+figure, axes = study.figure("fig35-viscosity", f"Solids at three viscosities, {thin[4:-2]} um, 10 nm, 50 mV (Fig. 35), when the layer has {HALFWAY} wt-%: with one and the same dewatering, and with Darcy's flux unscaled; right: the latter at one time. Mean of {len(PACKINGS)} packings, band: standard error", columns=3, width=65)
+EARLY = viscous["-darcy"]["0.89"][0].time[halfway(viscous["-darcy"]["0.89"][0])]
+for axis, (end, when, title) in zip(axes, (("", halfway, f"dewatering fixed, {HALFWAY} wt-%"), ("-darcy", halfway, f"Darcy unscaled, {HALFWAY} wt-%"), ("-darcy", lambda r: at(r, EARLY), f"Darcy unscaled, {EARLY:.3f} s"))):
     for i, m in enumerate(VISCOSITIES):
         profile(axis, viscous[end][m], when, f"C{i}", f"{m} mPa s")
-    axis.set(title=title)
-axes[0].legend()
+    axis.set(title=title, xlim=(55, 85))
+axes[0].legend(loc="center left")
 figure, axes = study.figure("fig36-thickness", f"Thickness by the particles against surface potential at several times, {THICK} um, 10 nm (Fig. 36); bars: standard error", columns=2)
 for axis, (what, name) in zip(axes, (("z99", "99 % of the solids (µm)"), ("top_envelope", "mean particle top (µm)"))):
     for t in TIMES:
         values = [mean_um(p, t, what) for p in at_time(t)]
         axis.errorbar(at_time(t), [v.mean for v in values], yerr=[v.error if v.n > 1 else 0 for v in values], fmt="o-", label=f"{t:g} s")
     axis.set(xlabel="surface potential (mV, negative)", ylabel=name)
-axes[1].legend()
+axes[1].legend(loc=(0.62, 0.1))
 figure, axis = study.figure("fig37-solids-by-potential", f"Solids at 0.2 s by surface potential, {THICK} um, 10 nm (Fig. 37)")
 for i, p in enumerate(at_time(0.2)):
     profile(axis, of_potential(p), lambda r: at(r, 0.2), f"C{i}", f"{p} mV")
@@ -155,14 +157,15 @@ for i, p in enumerate(POTENTIALS):
     axis.plot(r.time, r.z99 / UM, color=f"C{i}", label=f"{p} mV")
     axis.plot(r.time, r.thickness / UM, "--", color=f"C{i}", lw=0.7)
 axis.set(xlabel="time (s)", ylabel="thickness (µm)")
+axis.locator_params(axis="x", nbins=5)
 axis.legend()
 figure, axis = study.figure("fig39-separations", f"Surface separations of near neighbours at {NEAR_TIME:g} s (Fig. 39)")
 for group, label in ((of_potential(0), "0 mV, 10 nm"), *([(of_potential(10), "10 mV, 10 nm")] if of_potential(10) else []), (of_potential(50), "50 mV, 10 nm"), (double_layer("2.5"), "25 mV, 2.5 nm"), (double_layer(10), "25 mV, 10 nm")):
     with study.file(group[0].case, "separation") as f:
         x, d = f["separation/edges"][:] * 1e9, f["separation/density"][at(group[0], NEAR_TIME)] * 1e-9
     axis.stairs(d, x, label=label, lw=1.2)
-axis.set(xlabel="surface separation (nm)", ylabel="density (1/nm)", xlim=(0, 120), yscale="log")
-axis.legend()
+axis.set(xlabel="surface separation (nm)", ylabel="density (1/nm)", xlim=(0, 120), ylim=(3e-5, 1), yscale="log")
+axis.legend(ncols=2, loc="upper right")
 figure, axes = study.figure("fig41-solids-by-double-layer", f"Solids by Debye length, {THICK} um, 25 mV, at 0.1 and 0.2 s (Fig. 41)", columns=2)
 figure2, axes2 = study.figure("fig42-cumulative", f"Solids of all that lies below a height, by Debye length, {THICK} um, 25 mV, 0.2 s (Fig. 42); right: the cake", columns=2)
 for i, (k, r) in enumerate(thinner):

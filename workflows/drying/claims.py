@@ -192,7 +192,7 @@ figure, axes = study.figure("fig25-solids-by-thickness", f"Solids against height
 for axis, t in zip(axes, (thicknesses[-1], thin)):
     profiles(axis, seeds("hll", t), instants, wt, labels)
     axis.set(xlabel="solids (wt-%)", ylabel="height (µm)", xlim=(50, 95), ylim=(0, t), title=f"{t} µm")
-    axis.legend()
+    axis.legend(fontsize=6, handlelength=1)
 for name, caption, values, label, limits in (
         ("fig26-solids-by-strategy", "Solids against height by strategy (Fig. 26)", wt, "solids (wt-%)", (50, 95)),
         ("fig27-number-fraction", "Finest particles (to 300 nm): share of them by height, 1 where they are spread evenly (Fig. 27)", lambda run, k: run.fine_share[k] * run.fine_share.shape[1], "share, over an even one (1)", (0, 2)),
@@ -203,7 +203,7 @@ for name, caption, values, label, limits in (
         some = instants if values is wt else instants[::2]
         profiles(axis, seeds(d, thick), some, values, [f"{t:g} s" for t in some])
         axis.set(xlabel=label, ylabel="height (µm)", xlim=limits, ylim=(0, thick), title=d.upper())
-        axis.legend(fontsize=5)
+        axis.legend(fontsize=6, handlelength=1)
 
 figure, axes = study.figure("dependence", f"What cake ({EARLY:g} s) and skin (largest by {STRONG:g} s) hang on: solids over those in the middle, {thick} um; bars: standard deviation of {n_seeds} packings", columns=2, width=95)
 for axis, (one, title) in zip(axes, ((0, "skin"), (2, "cake"))):
