@@ -113,7 +113,7 @@ studies-page: build
 	  if [ ! -e $$folder/claims.csv ]; then missing+=($$study); continue; fi; \
 	  found+=(--claims $$folder/claims.csv); for figure in $$folder/figures/*.svg; do found+=(--figure $$figure); done; done; \
 	if [ $${#found[@]} = 0 ]; then echo 'no study has been run: make study-NAME first' >&2; exit 1; fi; \
-	title=Studies; if [ $${#missing[@]} != 0 ]; then title="Studies (not run: $${missing[*]})"; fi; \
+	title=Studies; if [ $${#missing[@]} != 0 ]; then list="$${missing[*]}"; title="Studies (not run: $${list// /, })"; fi; \
 	set -x; $(BUILD)/bin/pigment-report "$${found[@]}" --title "$$title" -o $(BUILD)/studies/report.html
 	@echo 'The report of all studies: $(BUILD)/studies/report.html'
 
