@@ -142,4 +142,5 @@ for axis, d in zip(axes, ("hll", "llh")):
         axis.plot(time, position[:, i, 2], color=f"C{i}")
         axis.plot(time, position[0, i, 2] + position[:, i, 0] - position[0, i, 0], ":", color=f"C{i}")
     axis.set(xlabel="time (s)", ylabel="height; dots: sideways (µm)", title=d.upper())
+    axis.locator_params(axis="x", nbins=5)
 study.finish()
