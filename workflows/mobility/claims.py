@@ -84,9 +84,8 @@ imposed = falls["abs"] > falls["eva"]
 study.claim("4.3", "Vertical mobility near the surface is higher under ABS than under EVA", "Fig. 34",
             "; ".join(f"{d.upper()} {Sample(abs(m.mean_vertical[SURFACE]) for m in thick[d]).text(2)} um, the surface falls by {falls[d] / UM:.2f} um" for d in ("abs", "eva")),
             f"mean ({STUDENT}); where the imposed fall is in the same order it is no finding", FROM_INPUT if s.above() and imposed else s.above())
-noisy = [c for c in study.cases if c.endswith("-b")]
-still = [c.removesuffix("-b") for c in noisy if c.removesuffix("-b") in moves]
-if still:
+noisy = [c for c in study.cases if c.endswith("-b") and c.removesuffix("-b") in moves]
+if noisy:
     study.claim("4.3", "Brownian motion carries particles of 250 to 300 nm about as far as the rest does", "not in the source, whose runs all have it",
                 "; ".join(f"{c}: lateral {moves[c].rms_lateral[SURFACE]:.3f} um with, {moves[c.removesuffix('-b')].rms_lateral[SURFACE]:.3f} um without" for c in noisy),
                 "0.5 to 2 um below the surface, root mean square: more with noise in both", all(moves[c].rms_lateral[SURFACE] > moves[c.removesuffix("-b")].rms_lateral[SURFACE] for c in noisy))
