@@ -13,6 +13,14 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
   const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
   resistance::SqueezeStep s{resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular, 0};
   const double guess = substrate_geometry_[k].gap;
+  if (two_step_) {
+    if (wall_squeeze_from_[k] > 0 && guess > 0) {
+      const double c = resistance::squeeze_constant(a), from = position_[k].z() - a;
+      s.coefficient += c * (1 / guess - 1 / at);
+      s.impulse = c * (std::log(wall_squeeze_from_[k] / guess) + (guess - from) / guess);
+    }
+    return s;
+  }
   if ((newton_ || path_resistance_) && guess != position_[k].z() - a && guess > 0 && gap > 0) {
     const resistance::SqueezeStep step = resistance::squeeze_step(a, gap, guess, at);  // 6 pi a^2/h: a pair's with R = a
     s.coefficient += step.coefficient;
@@ -24,18 +32,21 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
 StepForce StepAssembly::substrate_step_force(int k) const {
   const double a = radius_[k], begin = position_[k].z() - a;
   static const std::vector<std::unique_ptr<forces::PreparedPairLaw>> none;
-  StepForce f{interactions_.substrate->colloidal ? laws_ : none, substrate_geometry_[k], begin};
+  StepForce f{interactions_.substrate->colloidal ? laws_ : none, substrate_geometry_[k], begin, two_step_ ? wall_squeeze_from_[k] : begin};
   const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
   f.singular = liquid_.viscosity * resistance::squeeze_constant(a) / dt_;
+  f.split = split_;
+  if (split_) f.standing = substrate_standing_force_[k];
   f.linear = liquid_.viscosity * resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular / dt_ - f.singular / at;
   return f;
 }
 
 StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
   if (path_) return path_substrate_state(k);
-  SubstrateState s{position_[k].z() - radius_[k], 0, 0};
+  SubstrateState s{position_[k].z() - radius_[k], split_ ? substrate_standing_force_[k] : 0, 0};
   if (interactions_.substrate->colloidal)
     for (const auto& law : laws_) {
+      if (split_ && law->concave()) continue;
       const forces::PairTerm t = law->switched(substrate_geometry_[k]);
       s.force += t.force;
       s.stiffness += t.stiffness;
@@ -50,7 +61,7 @@ StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
 
 StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   const forces::FreeSurfaceParameters& surface = *interactions_.free_surface;
-  const double a = radius_[k], height = path_resistance_ ? 0.5 * (film_.height_begin + surface_end_) : film_.height_begin;
+  const double a = radius_[k], height = two_step_ ? surface_end_ : path_resistance_ ? 0.5 * (film_.height_begin + surface_end_) : film_.height_begin;
   const double gap = height - resistance_height_[k] - a;
   SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
   // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.

@@ -189,7 +189,7 @@ void RoughSubstrate::refine(int k, const Laws& laws, double mu, double dt, const
       if (gap <= 0 && !newton) crossed = true;
       if (newton && off_guess(gap, guess, guess != c.gap_begin)) {
         const double singular = mu * c.squeeze_weight * resistance::squeeze_constant(c.squeeze_radius) / dt;
-        const StepForce force{interactions_.substrate->colloidal ? laws : none, c.geometry, c.gap_begin, singular,
+        const StepForce force{interactions_.substrate->colloidal ? laws : none, c.geometry, c.gap_begin, c.gap_begin, singular,
                               mu * c.scalars.perpendicular / dt - singular / c.gap_begin, 0, c.derjaguin};
         guess = next_gap(gap, guess, force.tangent(gap), force);
         again = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "forces/surface_spring.h"
@@ -15,6 +16,14 @@ namespace {
 // Particles that neither touch the surface nor leave it may be held in one pass and free in the next for ever. After some passes one
 // stays as it is that the surface holds back by less than kT/nm, or that sticks out by less than a tenth of an atom.
 constexpr double weak_hold = 4;  // pN
+
+// Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess.
+constexpr double linearisation_share = 0.005, linear_range = 0.3;
+
+// Splitting alone: with a gap further off than by its own length those within a tenth of it are put right before the others. And a bond
+// opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about.
+constexpr double focus_share = 0.1;
+constexpr double bond_reach = 1e-3, bond_rise = 1.15;  // um
 
 std::vector<int> chunk_of_pairs(const solve::PairTopology& t) {
   std::vector<int> count;
@@ -63,6 +72,8 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height, interactions.height_field.get());
   normal_.resize(pairs_.size());
   gap_begin_.resize(pairs_.size());
+  gap_from_.resize(pairs_.size());
+  squeeze_from_.resize(pairs_.size());
   resistance_gap_.resize(pairs_.size());
   resistance_height_.resize(n);
   scalars_.resize(pairs_.size());
@@ -83,8 +94,9 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
 }
 
 void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liquid& liquid, double dt, Treatment treatment,
-                         const Vec3Array& force, const std::vector<double>& protrusion) {
+                         const Vec3Array& force, const std::vector<double>& protrusion, const TwoStep* two_step) {
   film_ = film;
+  two_step_ = two_step != nullptr;
   surface_end_ = film.height_end;
   if (interactions_.pressure_limited()) {
     const double fall = dt * (film.absorption + film.evaporation);
@@ -94,7 +106,8 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
   liquid_ = liquid;
   dt_ = dt;
   implicit_ = treatment != Treatment::Explicit && treatment != Treatment::ExplicitMidpoint;
-  newton_ = treatment == Treatment::Newton;
+  newton_ = treatment == Treatment::Newton || treatment == Treatment::ConvexSplitting;
+  split_ = treatment == Treatment::ConvexSplitting;
   path_force_ = treatment == Treatment::PathAverage;
   path_ = path_force_ || treatment == Treatment::ExplicitMidpoint || treatment == Treatment::ImplicitMidpoint;
   path_resistance_ = path_ && !(interactions_.brownian && !interactions_.brownian->drift);
@@ -110,39 +123,117 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
   const std::size_t n = radius_.size();
   external_force_.resize(force.empty() ? 0 : n);
   const int chunks = topology_.chunks().count();
+  const auto squeeze_from = [&](double gap, double gap_before) { return gap * std::exp(two_step->share * std::log(gap / gap_before)); };
+  if (two_step_) {
+    height_begin_.resize(n);
+    wall_squeeze_from_.resize(n);
+  }
+  if (two_step_ || split_) separation_.resize(pairs_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < n; ++k) {
-    position_[k] = position[order_[k]];
-    resistance_height_[k] = position_[k].z();
+    position_[k] = (two_step_ ? two_step->from : position)[order_[k]];
+    resistance_height_[k] = (two_step_ ? two_step->predicted : position)[order_[k]].z();
     if (!force.empty()) external_force_[k] = force[order_[k]];
     if (interactions_.free_surface) protrusion_guess_[k] = protrusion[order_[k]];
     if (interactions_.substrate && !rough_) substrate_geometry_[k].gap = position_[k].z() - radius_[k];
+    if (two_step_ && interactions_.substrate) {
+      const double a = radius_[k], z = height_begin_[k] = position[order_[k]].z(), gap = z - a, gap_before = two_step->before[order_[k]].z() - a;
+      if (gap <= 0 || gap_before <= 0 || !interactions_.lubrication()) {
+        resistance_height_[k] = z;
+        wall_squeeze_from_[k] = gap;
+        continue;
+      }
+      wall_squeeze_from_[k] = squeeze_from(gap, gap_before);
+      substrate_geometry_[k].gap = std::max(resistance_height_[k] - a, largest_fall * gap);
+      resistance_height_[k] = a + substrate_geometry_[k].gap;
+    }
   }
   if (rough_) rough_->begin(position_, laws_);
-  if (flow_) flow_->place(position_, interactions_.free_surface ? film.height_begin : 0, liquid.viscosity, film.absorption);
+  if (flow_) {
+    const double height = two_step_ ? film.height_end : film.height_begin;
+    if (two_step_) {
+      std::vector<Vec3> predicted(n);
+      for (std::size_t k = 0; k < n; ++k) predicted[k] = two_step->predicted[order_[k]];
+      flow_->place(predicted, interactions_.free_surface ? height : 0, liquid.viscosity, film.absorption);
+    } else {
+      flow_->place(position_, interactions_.free_surface ? height : 0, liquid.viscosity, film.absorption);
+    }
+  }
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c)
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
       const auto [i, j] = pairs_[p];
+      if (two_step_) {
+        begin_two_step(p, position, *two_step);
+        continue;
+      }
       const Vec3 d = cell_.minimum_image(position_[j] - position_[i]);
       const double r = d.norm();
       normal_[p] = d / r;
-      gap_begin_[p] = geometry_[p].gap = resistance_gap_[p] = r - radius_[i] - radius_[j];
+      if (split_) separation_[p] = d;
+      gap_begin_[p] = gap_from_[p] = squeeze_from_[p] = geometry_[p].gap = resistance_gap_[p] = r - radius_[i] - radius_[j];
       if (interactions_.lubrication()) scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]);
     }
   if (path_) begin_path();
+  if (!split_) return;
+  memory_.resize(pairs_.size());
+  standing_force_.resize(chunks);
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c) {
+    const std::size_t first = topology_.pair_begin(c), count = topology_.pair_begin(c + 1) - first;
+    standing_force_[c].assign(count, 0.0);
+    for (const auto& law : laws_)
+      if (law->concave()) law->add(std::span(geometry_).subspan(first, count), standing_force_[c], stiffness_[c]);
+    for (std::size_t p = first; p < first + count; ++p)
+      if (standing_force_[c][p - first] < 0 && scalars_[p].squeeze > 0 && gap_begin_[p] > 0) geometry_[p].gap = gap_alone(pair_step_force(c, p), geometry_[p]);
+  }
+  if (!interactions_.substrate || rough_) return;
+  substrate_standing_force_.assign(n, 0.0);
+  for (const auto& law : laws_)
+    if (law->concave() && interactions_.substrate->colloidal)
+      for (std::size_t k = 0; k < n; ++k) substrate_standing_force_[k] += law->switched(substrate_geometry_[k]).force;
+  if (!interactions_.lubrication()) return;
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < n; ++k)
+    if (substrate_standing_force_[k] < 0 && substrate_geometry_[k].gap > 0)
+      substrate_geometry_[k].gap = gap_alone(substrate_step_force(static_cast<int>(k)), substrate_geometry_[k]);
+}
+
+void StepAssembly::begin_two_step(std::size_t p, const Vec3Array& position, const TwoStep& two_step) {
+  const auto [i, j] = pairs_[p];
+  const std::int32_t fi = order_[i], fj = order_[j];
+  const double contact = radius_[i] + radius_[j];
+  // One image throughout: a pair whose nearest image changes within two steps is nowhere near.
+  const Vec3 now = position[fj] - position[fi], image = cell_.minimum_image(now) - now;
+  const auto separation = [&](const Vec3Array& x) -> Vec3 { return x[fj] - x[fi] + image; };
+  const Vec3 from = separation(two_step.from), predicted = separation(two_step.predicted);
+  const double r = predicted.norm(), gap = (now + image).norm() - contact, gap_before = separation(two_step.before).norm() - contact;
+  separation_[p] = from;
+  normal_[p] = predicted / r;
+  gap_begin_[p] = gap;
+  gap_from_[p] = from.norm() - contact;
+  turn_[p] = normal_[p].dot(from) - from.norm();
+  double guess = r - contact;
+  if (gap > 0) guess = std::max(guess, largest_fall * gap);
+  geometry_[p].gap = resistance_gap_[p] = guess;
+  squeeze_from_[p] = guess;
+  if (!interactions_.lubrication()) return;
+  scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess);
+  if (scalars_[p].squeeze > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(two_step.share * std::log(gap / gap_before)) : 0;
 }
 
 void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs) const {
   const int D = system.unknowns_per_particle();
   const std::size_t begin = topology_.pair_begin(chunk), end = topology_.pair_begin(chunk + 1);
   std::vector<double>&force = force_[chunk], &stiffness = stiffness_[chunk];
-  std::fill(force.begin(), force.end(), 0.0);
+  if (split_) std::copy(standing_force_[chunk].begin(), standing_force_[chunk].end(), force.begin());
+  else std::fill(force.begin(), force.end(), 0.0);
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
   if (path_) {
     if (!resistance_only_) path_forces(chunk, force, stiffness);
   } else {
-    for (const auto& law : laws_) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
+    for (const auto& law : laws_)
+      if (!split_ || !law->concave()) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
   }
   solve::FullPairs& full = system.full[chunk];
   solve::SqueezePairs& squeeze = system.squeeze[chunk];
@@ -153,14 +244,20 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
     const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
-    double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_begin_[p] - turn_[p]));
+    double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_from_[p] - turn_[p]));
     const std::int32_t target = topology_.target(p);
     const double at = resistance_gap_[p];
     if (path_resistance_ && passes_ > 0 && interactions_.lubrication())
       scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);
     const resistance::PairScalars& s = scalars_[p];
     double viscous = s.squeeze;
-    if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
+    if (two_step_) {
+      if (viscous > 0 && squeeze_from_[p] > 0 && guess > 0) {
+        const double c = resistance::squeeze_constant(geometry_[p].reduced_radius()), weight = squeeze_weight(p);
+        viscous += weight * c * (1 / guess - 1 / at);
+        f += mu * weight * c * (std::log(squeeze_from_[p] / guess) + (guess - gap_from_[p] - turn_[p]) / guess) / dt_;
+      }
+    } else if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
       const forces::PairGeometry& g = geometry_[p];
       const double weight = squeeze_weight(p);
       const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess, at);
@@ -173,6 +270,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
         rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
       }
     const double total = mu * viscous + dt_ * k;
+    if (split_) memory_[p] = total > 0 ? mu * viscous / total : 1;
     if (s.shear > 0) {
       const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);
       full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * at, radius_[j] + 0.5 * at,
@@ -235,7 +333,7 @@ void StepAssembly::gap_velocities(const std::vector<double>& u, std::vector<doub
   }
 }
 
-GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u, double scale) {
+GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u, double scale, double tolerance) {
   const std::size_t D = interactions_.rotation() ? 6 : 3;
   const int chunks = topology_.chunks().count();
   std::vector<GapCheck> checks(chunks);
@@ -253,6 +351,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     }
     if (interactions_.pressure_limited()) pressure = surface_pressure(u);
   }
+  // One gap that came out far from its guess throws many others about: it alone is put right first, with those that are off nearly as far.
+  const double worst = split_ ? farthest_off(u) : 0, focus = worst > 1 ? focus_share * worst : 0;
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
@@ -260,7 +360,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     if (path_) follow_path(c, u, check);
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1) && !path_; ++p) {
       const auto [i, j] = pairs_[p];
-      Vec3 d = normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]);
+      Vec3 d = two_step_ || split_ ? separation_[p] : Vec3(normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]));
       double along = 0;
       for (int q = 0; q < 3; ++q) {
         const double moved = dt_ * (u[j * D + q] - u[i * D + q]);
@@ -268,7 +368,12 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         along += normal_[p][q] * moved;
       }
       const double gap = d.norm() - radius_[i] - radius_[j];
-      if (newton_) turn_[p] = gap - gap_begin_[p] - along;
+      if (newton_ && focus == 0) turn_[p] = gap - gap_from_[p] - along;
+      if (split_ && focus == 0 && std::abs(turn_[p]) > 0.01 * scale) {
+        // The axis half-way: along it the gap changes by what the spheres move, but for a term of fourth order.
+        normal_[p] = (separation_[p] + d).normalized();
+        turn_[p] = gap - gap_from_[p] - normal_[p].dot(d - separation_[p]);
+      }
       if (gap < check.smallest_gap) {
         check.smallest_gap = gap;
         check.worst_pair = p;
@@ -277,13 +382,18 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
-      if (off_guess(gap, guess, guess != gap_begin_[p])) {
+      if (off_guess(gap, guess, two_step_ || split_ || guess != gap_begin_[p])) {
         const double missed = (gap - guess) / (std::max(gap, 0.0) + scale);
         check.miss += missed * missed;
-        const StepForce force = pair_step_force(p);
-        const double next = next_gap(gap, guess, force.tangent(gap), force);
-        guess = bracket_[p].take(next, guess);
+        const double off = std::abs(gap - guess) / guess, left = 0.5 * off * missed;
+        check.linearisation += left * left;
+        check.farthest = std::max(check.farthest, off);
         check.refine = true;
+        if (off < focus) continue;
+        const StepForce force = pair_step_force(c, p);
+        double next = next_gap(gap, guess, force.tangent(gap), force);
+        if (split_ && guess < bond_reach) next = std::min(next, bond_rise * guess);
+        guess = bracket_[p].take(next, guess);
       }
     }
     const bool pairs_refine = std::exchange(check.refine, false);
@@ -293,11 +403,11 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         const Vec3 end = position_[k] + dt_ * Vec3(u[k * D], u[k * D + 1], u[k * D + 2]);
         rough_->refine(k, laws_, liquid_.viscosity, dt_, end, newton_, check.refine, check.crossed);
       } else if (interactions_.substrate && !path_) {
-        const double gap = z - a, begin = position_[k].z() - a;
+        const double gap = z - a, begin = (two_step_ ? height_begin_[k] : position_[k].z()) - a;
         double& guess = substrate_geometry_[k].gap;
         if (interactions_.lubrication() && begin > 0) {
           if (gap <= 0) check.crossed = true;
-          if (newton_ && off_guess(gap, guess, guess != begin)) {
+          if (newton_ && off_guess(gap, guess, two_step_ || split_ || guess != begin)) {
             const StepForce force = substrate_step_force(k);
             guess = next_gap(gap, guess, force.tangent(gap), force);
             check.refine = true;
@@ -335,7 +445,11 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   if (path_resistance_ && flow_) follow_flow(u);
   ++passes_;
   GapCheck all = checks[0];
-  for (std::size_t c = 1; c < checks.size(); ++c) all.miss += checks[c].miss;
+  for (std::size_t c = 1; c < checks.size(); ++c) {
+    all.miss += checks[c].miss;
+    all.linearisation += checks[c].linearisation;
+    all.farthest = std::max(all.farthest, checks[c].farthest);
+  }
   for (const GapCheck& check : checks) {
     all.refine = all.refine || check.refine;
     all.crossed = all.crossed || check.crossed;
@@ -345,6 +459,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       all.worst_pair = check.worst_pair;
     }
   }
+  const double left = std::sqrt(all.linearisation / static_cast<double>(radius_.size()));
+  if (newton_ && all.only_pairs && !all.crossed && all.farthest < linear_range && left < linearisation_share * tolerance) all.refine = false;
   // Once the rest agrees at this height of the surface.
   if (interactions_.pressure_limited() && !all.refine && !all.crossed && !search_.settle(pressure)) {
     surface_end_ = search_.height();
@@ -358,17 +474,54 @@ double StepAssembly::rough_gap(const Vec3& position, double radius) const {
   return rough_ ? rough_->gap(position, radius) : std::numeric_limits<double>::infinity();
 }
 
-StepForce StepAssembly::pair_step_force(std::size_t p) const {
+StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
   const forces::PairGeometry& g = geometry_[p];
-  StepForce f{laws_, g, gap_begin_[p]};
+  StepForce f{laws_, g, gap_from_[p], squeeze_from_[p]};
   f.turn = turn_[p];
+  f.split = split_;
+  if (split_) f.standing = standing_force_[chunk][p - topology_.pair_begin(chunk)];
   const resistance::PairScalars& s = scalars_[p];
-  if (s.squeeze > 0) {
+  if (!(f.squeeze_from > 0)) {
+    f.squeeze_from = g.gap;
+  } else if (s.squeeze > 0) {
     const double singular = liquid_.viscosity * squeeze_weight(p) * resistance::squeeze_constant(g.reduced_radius()) / dt_;
     f.singular = singular;
     f.linear = liquid_.viscosity * s.squeeze / dt_ - singular / resistance_gap_[p];
   }
   return f;
+}
+
+double StepAssembly::farthest_off(const std::vector<double>& u) const {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  double worst = 0;
+#pragma omp parallel for schedule(static) reduction(max : worst)
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [i, j] = pairs_[p];
+    Vec3 d = separation_[p];
+    for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
+    const double gap = d.norm() - radius_[i] - radius_[j], guess = geometry_[p].gap;
+    if (gap_begin_[p] > 0) worst = std::max(worst, std::abs(gap - guess) / guess);
+  }
+  return worst;
+}
+
+// Where the pair would come to if it were alone.
+double StepAssembly::gap_alone(StepForce force, const forces::PairGeometry& pair) const {
+  force.linear += 6 * std::numbers::pi * liquid_.viscosity * pair.reduced_radius() / dt_;  // Stokes' drag on both
+  const double begin = force.gap_begin;
+  const bool inwards = force(begin) < 0;
+  constexpr double least = 5e-5;  // um; no Born wall lets anything so near
+  double from = begin, to = begin;
+  for (int k = 0; k < 40 && to > least; ++k) {
+    from = to;
+    to *= inwards ? 0.7 : 1.4;
+    if ((force(to) < 0) != inwards) break;
+  }
+  for (int k = 0; k < 6; ++k) {
+    const double middle = std::sqrt(from * to);
+    ((force(middle) < 0) == inwards ? from : to) = middle;
+  }
+  return std::sqrt(from * to);
 }
 
 double StepAssembly::squeeze_weight(std::size_t p) const {

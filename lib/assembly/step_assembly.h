@@ -45,6 +45,8 @@ struct GapCheck {
   bool crossed = false;        // some gap that was open came out closed
   bool only_pairs = true;      // nothing but open gaps of pairs asks for it
   double miss = 0;             // sum of squares of how far those gaps came out from their guesses, in units of gap + scale
+  double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess
+  double farthest = 0;         // largest |gap - guess|/guess
   double surface_height = 0;   // at the end of the step, um
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
@@ -54,7 +56,19 @@ struct GapCheck {
 // linearised about the gaps that come out, found by iteration. For noise that obeys fluctuation and dissipation
 // (assembly/path_average.cpp): forces as in the first two or averaged along the step, and, unless asked not to
 // (Interactions::brownian, drift), the resistance half-way between the step's ends.
-enum class Treatment { Explicit, LinearlyImplicit, Newton, ExplicitMidpoint, ImplicitMidpoint, PathAverage };
+// ConvexSplitting: as Newton, but attractions that ease with distance are taken at the beginning, so that what is left is the minimum of
+// a convex function, whatever the length of the step [eyre1998].
+enum class Treatment { Explicit, LinearlyImplicit, Newton, ConvexSplitting, ExplicitMidpoint, ImplicitMidpoint, PathAverage };
+
+// What a step of the second-order backward differentiation formula ([hairer1996]) starts from besides its beginning, file order, um.
+// With w the step over the last one, the formula is Euler's step from `from` = x0 + w^2/(1 + 2w) (x0 - x_before) over
+// (1 + w)/(1 + 2w) of the step.
+struct TwoStep {
+  double share = 0;                 // w^2/(1 + 2w)
+  const Vec3Array& before;          // where the last step began
+  const Vec3Array& from;
+  const Vec3Array& predicted;       // at the step's end, to second order: where axes and resistances are taken
+};
 
 class StepAssembly {
  public:
@@ -64,7 +78,7 @@ class StepAssembly {
   // Geometry at the beginning of a step. position: file order; force: external (Brownian) force a particle, file order, or
   // empty; protrusion: guess of each particle's protrusion through the free surface at the end of the step, file order.
   void begin(const Vec3Array& position, const Film&, const Liquid&, double dt, Treatment, const Vec3Array& force,
-             const std::vector<double>& protrusion);
+             const std::vector<double>& protrusion, const TwoStep* = nullptr);
   // Fills the system for the current guesses.
   void build(solve::PairSystem&) const;
   // Fills the system with R at the beginning of the step alone: no stiffness; its right-hand side means nothing.
@@ -72,14 +86,18 @@ class StepAssembly {
   // A random force, engine order, D a particle, that acts from here to the next begin().
   void set_random_force(std::vector<double> force) { random_force_ = std::move(force); }
   // Judges a solution (engine order) of the system built last and moves the guesses towards it.
-  // scale: um, the length by which a gap may be wrong (GapCheck::miss).
-  GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution, double scale = 5e-3);
+  // scale: um, the length by which a gap may be wrong (GapCheck::miss). tolerance: of the step, in these units: 0.5 % of it,
+  // as a root mean square over the particles, is what may be left of the linearisation; 0: nothing.
+  GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution, double scale = 5e-3, double tolerance = 0);
 
   const solve::PairTopology& topology() const { return topology_; }
   std::size_t pair_count() const { return pairs_.size(); }
   // Rate of change of every pair's gap for a solution, um/ms; and the gaps at the beginning.
   void gap_velocities(const std::vector<double>& solution, std::vector<double>& rate) const;
   const std::vector<double>& gaps() const { return gap_begin_; }
+  // How much of an error at the beginning of the step each gap still has at its end, by its own stiffness: one minus the share that
+  // relaxes within it. With ConvexSplitting only.
+  const std::vector<double>& memory() const { return memory_; }
   BoundaryPressures boundary_pressures(const std::vector<double>& solution) const;
   // Protrusion of every particle at the end of the step for the accepted solution, file order: next step's guess.
   std::vector<double> protrusions() const;
@@ -103,11 +121,14 @@ class StepAssembly {
   SubstrateState substrate_state(int k) const;
   resistance::SqueezeStep wall_squeeze(int k) const;  // the whole perpendicular term of the substrate
   double squeeze_weight(std::size_t p) const;         // taper on the singular part of a pair's squeeze resistance
-  StepForce pair_step_force(std::size_t p) const;
+  StepForce pair_step_force(int chunk, std::size_t p) const;
   StepForce substrate_step_force(int k) const;
+  double gap_alone(StepForce, const forces::PairGeometry&) const;
+  double farthest_off(const std::vector<double>& solution) const;  // largest |gap - guess|/guess
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
+  void begin_two_step(std::size_t pair, const Vec3Array& position, const TwoStep&);
   void path_forces(int chunk, std::vector<double>& force, std::vector<double>& stiffness) const;
   void follow_flow(const std::vector<double>& solution);
   void follow_path(int chunk, const std::vector<double>& solution, GapCheck&);
@@ -128,6 +149,10 @@ class StepAssembly {
   Liquid liquid_{};
   double dt_ = 0;
   bool implicit_ = true, newton_ = true;
+  bool split_ = false;
+  std::vector<std::vector<double>> standing_force_;  // of concave laws at the beginning, where split: one array a chunk
+  std::vector<double> substrate_standing_force_;
+  mutable std::vector<double> memory_;  // resistance over resistance and stiffness times the step, one a pair
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
   double prepared_temperature_ = -1;
   std::vector<Vec3> position_, external_force_;
@@ -135,6 +160,11 @@ class StepAssembly {
   std::optional<RoughSubstrate> rough_;    // in place of the plane
   std::vector<Vec3> normal_;               // one a pair
   std::vector<double> gap_begin_;          // one a pair
+  // What the motion of the step starts from (TwoStep::from): gap and separation; and the gap whose logarithm the squeeze starts from.
+  // But in a two-step method all are those of the beginning.
+  bool two_step_ = false;
+  std::vector<double> gap_from_, squeeze_from_;      // one a pair
+  std::vector<double> height_begin_, wall_squeeze_from_;  // one a particle, two-step only: its centre at the beginning
   SurfaceSearch search_;                   // of a pressure-limited surface
   double surface_end_ = 0;                 // height at the step's end, um
   double entry_pressure_ = 0;              // of air into the pores, pN/um^2; pressure-limited only

@@ -12,18 +12,21 @@ namespace pigment::assembly {
 struct StepForce {
   const std::vector<std::unique_ptr<forces::PreparedPairLaw>>& laws;
   forces::PairGeometry geometry;  // its gap is the guess
-  double gap_begin = 0;           // um, > 0
+  double gap_begin = 0;           // um
+  double squeeze_from = 0;        // um, > 0: the same, but in a two-step method
   double singular = 0;            // c/dt times the viscosity, pN
   double linear = 0;              // the rest of the resistance over dt, pN/um, that of 1/h0 left out
   double turn = 0;                // um, the part of the change of the gap that the axis's turning makes: it meets no linear resistance
+  double standing = 0;            // pN, in place of the concave laws
+  bool split = false;             // whether these are left out
   double share = 1;               // by which the laws' forces are multiplied: those of a curved wall over the plane's
 
-  double operator()(double gap) const { return colloidal(gap).force + singular * std::log(gap_begin / gap) - linear * (gap - gap_begin - turn); }
+  double operator()(double gap) const { return colloidal(gap).force + singular * std::log(squeeze_from / gap) - linear * (gap - gap_begin - turn); }
   // As the system was linearised about the guess.
   double tangent(double gap) const {
     const double guess = geometry.gap;
     const forces::PairTerm t = colloidal(guess);
-    return t.force + std::max(t.stiffness, 0.0) * (guess - gap) + singular * (std::log(gap_begin / guess) + (guess - gap) / guess) -
+    return t.force + std::max(t.stiffness, 0.0) * (guess - gap) + singular * (std::log(squeeze_from / guess) + (guess - gap) / guess) -
            linear * (gap - gap_begin - turn);
   }
 
@@ -32,7 +35,9 @@ struct StepForce {
     forces::PairGeometry g = geometry;
     g.gap = gap;
     forces::PairTerm sum;
+    sum.force = standing;
     for (const auto& law : laws) {
+      if (split && law->concave()) continue;
       const forces::PairTerm t = law->switched(g);
       sum.force += share * t.force;
       sum.stiffness += share * t.stiffness;

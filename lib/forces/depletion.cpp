@@ -15,6 +15,7 @@ namespace pigment::forces {
 namespace {
 
 struct Formula {
+  static constexpr bool concave = true;
   double cutoff_gap, floor_gap;
   double reach, pressure;  // reach: 2r
 

@@ -39,6 +39,8 @@ class PreparedPairLaw {
  public:
   virtual ~PreparedPairLaw() = default;
   virtual double cutoff_gap() const = 0;                           // um
+  // An attraction that eases with distance everywhere: its energy is concave in the gap.
+  virtual bool concave() const = 0;
   virtual PairTerm evaluate(const PairGeometry&) const = 0;        // not switched off at the cutoff
   virtual PairTerm switched(const PairGeometry&) const = 0;        // as the engine uses it
   // Adds force and stiffness of each pair (switched); arrays of equal length.
@@ -64,12 +66,16 @@ struct PairLawEntry {
 const std::vector<PairLawEntry>& pair_laws();
 
 // What a law's file supplies: struct Formula { double cutoff_gap, floor_gap; PairTerm operator()(const PairGeometry&) const; }
-// (only called with gap >= floor_gap) and a Law with `Formula prepare(const Liquid&) const`.
+// (only called with gap >= floor_gap), `static constexpr bool concave = true` where that holds, and a Law with `Formula prepare(const Liquid&) const`.
 template <typename Formula>
 class PreparedFormula final : public PreparedPairLaw {
  public:
   explicit PreparedFormula(Formula f) : formula_(f) {}
   double cutoff_gap() const override { return formula_.cutoff_gap; }
+  bool concave() const override {
+    if constexpr (requires { Formula::concave; }) return Formula::concave;
+    else return false;
+  }
   PairTerm evaluate(const PairGeometry& g) const override { return continued(g); }
   PairTerm switched(const PairGeometry& g) const override { return faded(g); }
   void add(std::span<const PairGeometry> pairs, std::span<double> force, std::span<double> stiffness) const override {

@@ -10,6 +10,7 @@ namespace pigment::forces {
 namespace {
 
 struct Formula {
+  static constexpr bool concave = true;
   double cutoff_gap, floor_gap;
   double hamaker_constant, wavelength;
 

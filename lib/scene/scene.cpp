@@ -96,6 +96,10 @@ void check_surface(config::Node& root, const Scene& scene, const std::string& st
 // The integrators whose noise obeys fluctuation and dissipation (stepping/integrators.cpp).
 void check_integrator(config::Node& root, const Scene& scene) {
   using I = stepping::SteppingParameters::Integrator;
+  if (scene.stepping.integrator == I::BackwardDifferentiation) {
+    if (scene.brownian) root.block("stepping").error("integrator", "looks back over the noise of the step before; with Brownian motion write auto or newton_implicit");
+    if (scene.substrate && scene.substrate->roughness) root.block("stepping").error("integrator", "knows no rough substrate; write auto or extrapolated");
+  }
   if (!scene.brownian || scene.brownian->model != forces::BrownianParameters::Model::FluctuationDissipation) return;
   const I i = scene.stepping.integrator;
   if (i == I::Automatic || i == I::LinearlyImplicit || i == I::ExplicitEuler) return;

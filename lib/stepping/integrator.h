@@ -8,6 +8,9 @@
 //                       can cross; first order
 //   extrapolated        newton_implicit once over dt and twice over dt/2, x = 2 x_half - x_full: second order
 //                       (LIMEX; [deuflhard1987])
+//   convex_splitting    newton_implicit with the attractions of the beginning; first order
+//   backward_differentiation  newton_implicit with the velocity of the step before: second order, one solution a step
+//                       (BDF2 with variable steps; [hairer1996])
 #include <memory>
 
 #include "stepping/step_context.h"
@@ -37,7 +40,9 @@ std::unique_ptr<Integrator> explicit_euler();
 std::unique_ptr<Integrator> explicit_midpoint();
 std::unique_ptr<Integrator> linearly_implicit();
 std::unique_ptr<Integrator> newton_implicit();
+std::unique_ptr<Integrator> convex_splitting();
 std::unique_ptr<Integrator> extrapolated();
+std::unique_ptr<Integrator> backward_differentiation();
 std::unique_ptr<Integrator> fluctuating(assembly::Treatment);
 
 // x0 + dt U for every particle.

@@ -11,7 +11,9 @@ SteppingParameters read_stepping(config::Node node) {
                                                {"explicit_midpoint", I::ExplicitMidpoint},
                                                {"linearly_implicit", I::LinearlyImplicit},
                                                {"newton_implicit", I::NewtonImplicit},
-                                               {"extrapolated", I::Extrapolated}}, "auto");
+                                               {"extrapolated", I::Extrapolated},
+                                               {"backward_differentiation", I::BackwardDifferentiation},
+                                               {"convex_splitting", I::ConvexSplitting}}, "auto");
   if (node.has("time_step") && !node.is_word("time_step", "auto"))
     p.time_step = node.quantity("time_step", Dimension::Time, config::positive());
   else

@@ -8,7 +8,7 @@
 namespace pigment::stepping {
 
 struct SteppingParameters {
-  enum class Integrator { Automatic, ExplicitEuler, ExplicitMidpoint, LinearlyImplicit, NewtonImplicit, Extrapolated };
+  enum class Integrator { Automatic, ExplicitEuler, ExplicitMidpoint, LinearlyImplicit, NewtonImplicit, Extrapolated, BackwardDifferentiation, ConvexSplitting };
   Integrator integrator = Integrator::Automatic;  // stepping/integrator.h
   double tolerance = 1e-2;           // error of a gap in one step, in units of gap + Debye length (see step_control.h)
   std::optional<double> time_step;   // ms; given: fixed steps

@@ -17,6 +17,7 @@ struct RunState {
   double time = 0;                  // ms
   double preferred_step = 0;        // ms; what the controller would take next
   double last_step = 0;             // ms; 0: none yet
+  double previous_step = 0;         // ms, the one before
   Vec3Array position;               // um
   Vec3Array velocity;               // um/ms, of the last step
   Vec3Array angular_velocity;       // 1/ms; zero without rotation

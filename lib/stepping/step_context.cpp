@@ -39,11 +39,18 @@ assembly::Film StepContext::film(const StepStart& start) const {
   f.height_end = height_at(end);
   if (problem_.interactions.pressure_limited()) {
     f.height_begin = start.surface_height;
+    if (start.two_step) f.height_begin += start.two_step->share * start.last_step * start.surface_velocity;
     f.height_guess = start.surface_height + start.step * start.surface_velocity;
   }
   if (!problem_.dewatering.time.empty()) {
     f.absorption = problem_.dewatering.mean_absorption_flux(begin, end);
     f.evaporation = problem_.dewatering.mean_evaporation_flux(begin, end);
+    if (start.two_step) {
+      // The same formula for the liquid as for the particles in it.
+      const double share = start.two_step->share, before = begin - start.last_step;
+      f.absorption = (f.absorption * start.step - share * problem_.dewatering.mean_absorption_flux(before, begin) * start.last_step) / start.span;
+      f.evaporation = (f.evaporation * start.step - share * problem_.dewatering.mean_evaporation_flux(before, begin) * start.last_step) / start.span;
+    }
   }
   return f;
 }
@@ -205,7 +212,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   const bool thermal = noisy && problem_.interactions.brownian->model == forces::BrownianParameters::Model::FluctuationDissipation;
   const Vec3Array force = noisy && !thermal ? brownian_force(start.noise.step, start.step, liquid) : Vec3Array{};
   solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
-  assembly_->begin(start.position, film(start), liquid, start.step, treatment, force, start.protrusion);
+  assembly_->begin(start.position, film(start), liquid, start.two_step ? start.span : start.step, treatment, force, start.protrusion, start.two_step);
   if (thermal) {
     assembly_->build_resistance(system_);
     assembly_->set_random_force(
@@ -221,7 +228,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     s.iterations += s.solve.iterations;
     ++s.solves;
     if (!s.solve.converged) return s;
-    s.check = assembly_->refine(system_, s.velocity, gap_scale_);
+    s.check = assembly_->refine(system_, s.velocity, gap_scale_, problem_.stepping.tolerance);
     // Bonds that open and close within the step may have no solution that one linear system has too; all gaps are open, and what is
     // left is a tenth of the error that the step may make.
     const double miss = std::sqrt(s.check.miss / static_cast<double>(id_.size()));

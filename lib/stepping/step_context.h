@@ -22,6 +22,9 @@ struct StepStart {
   double step = 0;                        // ms
   assembly::NoiseInterval noise;          // of the step: names its random numbers
   double surface_height = 0, surface_velocity = 0;  // of a pressure-limited surface at the beginning, um and um/ms
+  // Of a two-step method: with it the solution is the velocity at the step's end, which leads there from two_step->from in `span`, ms.
+  const assembly::TwoStep* two_step = nullptr;
+  double last_step = 0, span = 0;
 };
 
 // Velocities of one solve and what they say of the step.
@@ -82,6 +85,7 @@ class StepContext {
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;
   // Rate of change of every listed pair's gap, at the normals of the step solved last, um/ms.
   std::vector<double> gap_rates(const std::vector<double>& solution) const;
+  const std::vector<double>& memory_of_last_step() const { return assembly_->memory(); }
   const std::vector<double>& gaps_of_last_step() const { return assembly_->gaps(); }
 
   // The solver's factor belongs to the run's state; revision changes with it.

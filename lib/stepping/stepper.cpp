@@ -66,6 +66,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
         state.solver_factor = context_.packed_factor();
         saved_factor_ = context_.factor_revision();
       }
+      state.previous_step = state.last_step;
       state.last_step = dt;
       state.time += dt;
       ++state.step;

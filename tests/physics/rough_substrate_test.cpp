@@ -108,6 +108,7 @@ TEST(RoughSubstrate, VanishingRoughnessDriesAsOnThePlane) {
     stepping::Problem problem = problem_of(packed);
     problem.interactions.height_field = std::move(field);
     problem.stepping.tolerance = 1e-3;
+    problem.stepping.integrator = stepping::SteppingParameters::Integrator::Extrapolated;  // that of rough substrates, for both
     stepping::RunState state = stepping::initial_state(problem, packed.layer.position);
     stepping::RunCallbacks callbacks;
     callbacks.on_frame = [](const stepping::RunState&, double, const std::vector<double>&) {};

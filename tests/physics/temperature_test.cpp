@@ -33,6 +33,7 @@ TEST(Temperature, ChangesViscosityAndPermittivity) {
   auto document = config::Document::from_text("colloidal: {electrostatic: {debye_length: 10 nm}}");
   problem.interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
   problem.stepping.time_step = 1e-3;
+  problem.stepping.integrator = stepping::SteppingParameters::Integrator::NewtonImplicit;  // its velocity owes nothing to the step before
   constexpr double a = 1, kappa = 100;
   Vec3Array position;
   test::add_particle(problem, position, a, Vec3(50, 50, 50));

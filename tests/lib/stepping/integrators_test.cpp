@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/interaction_curves.h"
 #include "base/error.h"
+#include "base/random.h"
 #include "support/one_layer.h"
 
 using namespace pigment;
@@ -68,7 +70,8 @@ TEST_P(Order, IsAsClaimed) {
 INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                          testing::Values(std::pair{Integrator::ExplicitEuler, 1.0}, std::pair{Integrator::LinearlyImplicit, 1.0},
                                          std::pair{Integrator::NewtonImplicit, 1.0}, std::pair{Integrator::ExplicitMidpoint, 2.0},
-                                         std::pair{Integrator::Extrapolated, 2.0}));
+                                         std::pair{Integrator::Extrapolated, 2.0}, std::pair{Integrator::BackwardDifferentiation, 2.0},
+                                         std::pair{Integrator::ConvexSplitting, 1.0}));
 
 // A pair pressed together by a load that would carry it through itself in one step: the Newton and the extrapolated step keep
 // it open at the length asked for, the linearly implicit one takes a shorter step, the explicit ones refuse.
@@ -99,7 +102,7 @@ TEST(Integrators, LongStepsNeverOverlap) {
 
 // The controlled step's error, measured against a far tighter run, is of the order of what was asked for.
 TEST(Integrators, ToleranceBoundsTheError) {
-  for (Integrator integrator : {Integrator::NewtonImplicit, Integrator::Extrapolated}) {
+  for (Integrator integrator : {Integrator::NewtonImplicit, Integrator::Extrapolated, Integrator::BackwardDifferentiation, Integrator::ConvexSplitting}) {
     Vec3Array end[2];
     for (int k = 0; k < 2; ++k) {
       Setting s = settling_triplet();
@@ -113,5 +116,54 @@ TEST(Integrators, ToleranceBoundsTheError) {
     // 1e-2 of gap + Debye length (20 nm and more) a step, first-order errors adding up over some tens of steps.
     EXPECT_LT(distance(end[0], end[1]), 0.3 * 0.02);
     EXPECT_GT(distance(end[0], end[1]), 0);
+  }
+}
+
+// Uncharged spheres that fall together, in steps ten times as long as a pair takes to do so: whatever the length, the energy of van der Waals and Born
+// forces never rises from step to step (that is what the splitting is for), nothing overlaps, and in the end there are bonds.
+TEST(Integrators, ConvexSplittingNeverGainsEnergy) {
+  Setting s;
+  s.problem = test::empty_problem();
+  auto document = config::Document::from_text("colloidal: {van_der_waals: {hamaker_constant: 1e-20 J}, born: {collision_diameter: 0.5 nm, hamaker_constant: 1e-20 J}}");
+  s.problem.interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
+  s.problem.interactions.surface_potential = {0};
+  s.problem.stepping.integrator = Integrator::ConvexSplitting;
+  s.problem.stepping.tolerance = 1e-4;
+  s.problem.stepping.solver_tolerance = 1e-6;
+  for (int k = 0; k < 27; ++k) {
+    const auto u = random_uniforms({5, Stream::BrownianForce}, 0, static_cast<std::uint64_t>(k));
+    const Vec3 jitter(u[0], u[1], u[2]);
+    test::add_particle(s.problem, s.position, 0.2 + 0.04 * (k % 3), Vec3(50 + 0.6 * (k % 3), 50 + 0.6 * (k / 3 % 3), 50 + 0.6 * (k / 9)) + 0.05 * jitter);
+  }
+  const Liquid liquid = liquid_at(s.problem.interactions.liquid, s.problem.interactions.liquid.temperature);
+  const assembly::InteractionEvaluator pair(s.problem.interactions, liquid);
+  double smallest = 0;
+  const auto energy = [&](const Vec3Array& x) {
+    double sum = 0;
+    smallest = 1;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const double a = s.problem.particles.radius[i], b = s.problem.particles.radius[j], gap = (x[i] - x[j]).norm() - a - b;
+        smallest = std::min(smallest, gap);
+        sum += pair.total({assembly::Partner::Sphere, a, b, 0, 0}, gap).energy;
+      }
+    return sum;
+  };
+  for (const double step : {0.5, 5.0}) {
+    s.problem.stepping.time_step = step;
+    stepping::RunState state = stepping::initial_state(s.problem, s.position);
+    stepping::Stepper stepper(s.problem, state);
+    double before = energy(state.position);
+    const double first = before;
+    for (int k = 0; k < 12; ++k) {
+      const double taken = stepper.advance(state, step).step;
+      EXPECT_GE(taken, 0.5 * step) << "step " << k;
+      const double now = energy(state.position);
+      EXPECT_GT(smallest, 0) << "step " << k << " of " << step << " ms";
+      EXPECT_LT(now, before) << "step " << k << " of " << step << " ms";
+      before = now;
+    }
+    EXPECT_LT(before, first - 5 * 0.67);  // pN um: five bonds
+    EXPECT_LT(smallest, 5e-4);
   }
 }

@@ -31,6 +31,7 @@ RunState full_state() {
   s.time = 1.0 / 3;
   s.preferred_step = 0.1;
   s.last_step = std::nextafter(0.1, 1.0);
+  s.previous_step = std::nextafter(0.1, 1.0) * 2;
   s.position = vectors(5, 0);
   s.velocity = vectors(5, 1);
   s.angular_velocity = vectors(5, 2);
@@ -67,11 +68,11 @@ bool same(const Redistribution& a, const Redistribution& b) { return same(a.resi
 
 // Every member: one that is added and forgotten here does not compile.
 void expect_same(const RunState& a, const RunState& b) {
-  const auto& [step, frame, time, preferred_step, last_step, position, velocity, angular_velocity, previous_velocity,
+  const auto& [step, frame, time, preferred_step, last_step, previous_step, position, velocity, angular_velocity, previous_velocity,
                previous_angular_velocity, surface_height, surface_velocity, protrusion, list_reference, list_temperature, frame_position, frame_height,
                solver_factor, redistribution, mass_centre, interval] = a;
   EXPECT_TRUE(same(step, b.step) && same(frame, b.frame));
-  EXPECT_TRUE(same(time, b.time) && same(preferred_step, b.preferred_step) && same(last_step, b.last_step));
+  EXPECT_TRUE(same(time, b.time) && same(preferred_step, b.preferred_step) && same(last_step, b.last_step) && same(previous_step, b.previous_step));
   EXPECT_TRUE(same(position, b.position));
   EXPECT_TRUE(same(velocity, b.velocity));
   EXPECT_TRUE(same(angular_velocity, b.angular_velocity));
