@@ -27,7 +27,18 @@ if child == 0:
     except OSError as error:
         os.write(2, f"{command[0]}: {error.strerror}\n".encode())
     os._exit(127)
-late = False
+late, stopped = False, 0
+
+
+def stop(number, _):
+    """This process is told to end: so is the command, and nothing is recorded."""
+    global stopped
+    stopped = number
+    os.kill(child, number)
+
+
+for ending in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+    signal.signal(ending, stop)
 
 
 def out_of_time(*_):
@@ -43,6 +54,8 @@ _, status, used = os.wait4(child, 0)
 signal.setitimer(signal.ITIMER_REAL, 0)
 seconds = time.monotonic() - began
 status = os.waitstatus_to_exitcode(status)
+if stopped:
+    sys.exit(128 + stopped)
 with open(log, errors="replace") as lines:
     said = [line.strip() for line in lines if line.strip()]
 if status in (2, 3, 4, 127):  # the study's own mistake, or a full disk
