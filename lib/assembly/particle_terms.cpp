@@ -8,10 +8,26 @@
 
 namespace pigment::assembly {
 
+resistance::BoundaryScalars StepAssembly::wall_scalars(int k) const {
+  return wall_.empty() ? resistance::wall_term(interactions_.hydrodynamics, radius_[k], resistance_height_[k] - radius_[k]) : wall_[k];
+}
+
+double StepAssembly::surface_gap(int k) const {
+  const double height = two_step_ ? surface_end_ : path_resistance_ ? 0.5 * (film_.height_begin + surface_end_) : film_.height_begin;
+  return height - resistance_height_[k] - radius_[k];
+}
+
+resistance::BoundaryScalars StepAssembly::surface_scalars(int k) const {
+  // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
+  if (surface_.empty())
+    return resistance::free_surface_term(interactions_.hydrodynamics, radius_[k], std::max(surface_gap(k), interactions_.free_surface->roughness));
+  return surface_[k];
+}
+
 resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
   const double a = radius_[k], gap = resistance::hydrodynamic_gap(position_[k].z() - a, a);
   const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
-  resistance::SqueezeStep s{resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular, 0};
+  resistance::SqueezeStep s{wall_scalars(k).perpendicular, 0};
   const double guess = substrate_geometry_[k].gap;
   if (two_step_) {
     if (wall_squeeze_from_[k] > 0 && guess > 0) {
@@ -37,7 +53,7 @@ StepForce StepAssembly::substrate_step_force(int k) const {
   f.singular = liquid_.viscosity * resistance::squeeze_constant(a) / dt_;
   f.split = split_;
   if (split_) f.standing = substrate_standing_force_[k];
-  f.linear = liquid_.viscosity * resistance::wall_term(interactions_.hydrodynamics, a, at).perpendicular / dt_ - f.singular / at;
+  f.linear = liquid_.viscosity * wall_scalars(k).perpendicular / dt_ - f.singular / at;
   return f;
 }
 
@@ -61,14 +77,10 @@ StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
 
 StepAssembly::SurfaceState StepAssembly::surface_state(int k) const {
   const forces::FreeSurfaceParameters& surface = *interactions_.free_surface;
-  const double a = radius_[k], height = two_step_ ? surface_end_ : path_resistance_ ? 0.5 * (film_.height_begin + surface_end_) : film_.height_begin;
-  const double gap = height - resistance_height_[k] - a;
-  SurfaceState s{gap, 0, 0, 0, protrusion_guess_[k]};
-  // At the roughness the surface hands over to the spring: the hydrodynamic term stays what it is there.
-  if (interactions_.lubrication())
-    s.resistance = resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(gap, surface.roughness)).perpendicular;
+  SurfaceState s{surface_gap(k), 0, 0, 0, protrusion_guess_[k]};
+  if (interactions_.lubrication()) s.resistance = surface_scalars(k).perpendicular;
   if (protrusion_guess_[k] > held) {
-    const forces::SpringForce spring = forces::lifted_spring(surface, a, protrusion_guess_[k]);
+    const forces::SpringForce spring = forces::lifted_spring(surface, radius_[k], protrusion_guess_[k]);
     s.force = spring.force;
     s.stiffness = spring.stiffness;
   }
@@ -93,7 +105,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       rough_->add_near(k, laws_, mu, dt_, implicit_, film_.absorption, D, f, system.own[chunk]);
     } else if (interactions_.substrate) {
       if (interactions_.lubrication()) {
-        const resistance::BoundaryScalars w = resistance::wall_term(interactions_.hydrodynamics, a, resistance_height_[k] - a);
+        const resistance::BoundaryScalars w = wall_scalars(k);
         const resistance::SqueezeStep squeeze = wall_squeeze(k);
         const double perpendicular = mu * squeeze.coefficient;
         f[2] += mu * squeeze.impulse / dt_;
@@ -113,8 +125,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
     if (interactions_.free_surface) {
       const SurfaceState s = surface_state(k);
       if (interactions_.lubrication()) {
-        const resistance::BoundaryScalars w =
-            resistance::free_surface_term(interactions_.hydrodynamics, a, std::max(s.gap_begin, interactions_.free_surface->roughness));
+        const resistance::BoundaryScalars w = surface_scalars(k);
         t.across += mu * w.parallel;
         t.coupling += mu * w.coupling;
         t.spin_along += mu * w.twist;

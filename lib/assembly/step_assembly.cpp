@@ -174,7 +174,21 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       gap_begin_[p] = gap_from_[p] = squeeze_from_[p] = geometry_[p].gap = resistance_gap_[p] = r - radius_[i] - radius_[j];
       if (interactions_.lubrication()) scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]);
     }
-  if (path_) begin_path();
+  wall_.clear();
+  surface_.clear();
+  if (path_) {
+    begin_path();
+  } else if (interactions_.lubrication()) {
+    const bool wall = interactions_.substrate && !rough_, surface = interactions_.free_surface && !interactions_.pressure_limited();
+    std::vector<resistance::BoundaryScalars> at_wall(wall ? n : 0), at_surface(surface ? n : 0);
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < n; ++k) {
+      if (wall) at_wall[k] = wall_scalars(static_cast<int>(k));
+      if (surface) at_surface[k] = surface_scalars(static_cast<int>(k));
+    }
+    wall_ = std::move(at_wall);
+    surface_ = std::move(at_surface);
+  }
   if (!split_) return;
   memory_.resize(pairs_.size());
   standing_force_.resize(chunks);

@@ -125,6 +125,10 @@ class StepAssembly {
   StepForce substrate_step_force(int k) const;
   double gap_alone(StepForce, const forces::PairGeometry&) const;
   double farthest_off(const std::vector<double>& solution) const;  // largest |gap - guess|/guess
+  // Terms of the plane and of the free surface at the heights where resistances are taken.
+  resistance::BoundaryScalars wall_scalars(int k) const;
+  resistance::BoundaryScalars surface_scalars(int k) const;
+  double surface_gap(int k) const;
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
@@ -187,6 +191,8 @@ class StepAssembly {
   std::vector<double> protrusion_guess_, protrusion_end_, holding_force_;
   mutable std::vector<std::vector<double>> force_, stiffness_;  // one array a chunk
   mutable std::vector<resistance::PairScalars> scalars_;        // at resistance_gap_, one a pair
+  // One a particle, where they stay what they are all through a step; else empty.
+  std::vector<resistance::BoundaryScalars> wall_, surface_;
 };
 
 }  // namespace pigment::assembly
