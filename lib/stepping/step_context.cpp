@@ -66,7 +66,7 @@ void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
     range.at_least = std::max(range.at_least, std::min(reach, 0.25 * std::min(problem_.cell.width_x, problem_.cell.width_y)));
   }
   // A wider skin lists more pairs and lasts longer.
-  range.skin = std::max(0.02, 0.4 * smallest);
+  range.skin = std::max(0.02, 0.8 * smallest);
   list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
   assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);
   id_.resize(list_.order.size());
