@@ -189,8 +189,8 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     wall_ = std::move(at_wall);
     surface_ = std::move(at_surface);
   }
+  if (split_ || two_step_) memory_.resize(pairs_.size());
   if (!split_) return;
-  memory_.resize(pairs_.size());
   standing_force_.resize(chunks);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
@@ -284,7 +284,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
         rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
       }
     const double total = mu * viscous + dt_ * k;
-    if (split_) memory_[p] = total > 0 ? mu * viscous / total : 1;
+    if (split_ || two_step_) memory_[p] = total > 0 ? mu * viscous / total : 1;
     if (s.shear > 0) {
       const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);
       full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * at, radius_[j] + 0.5 * at,

@@ -96,7 +96,7 @@ class StepAssembly {
   void gap_velocities(const std::vector<double>& solution, std::vector<double>& rate) const;
   const std::vector<double>& gaps() const { return gap_begin_; }
   // How much of an error at the beginning of the step each gap still has at its end, by its own stiffness: one minus the share that
-  // relaxes within it. With ConvexSplitting only.
+  // relaxes within it. With ConvexSplitting and in two-step methods.
   const std::vector<double>& memory() const { return memory_; }
   BoundaryPressures boundary_pressures(const std::vector<double>& solution) const;
   // Protrusion of every particle at the end of the step for the accepted solution, file order: next step's guess.

@@ -1,8 +1,8 @@
 #pragma once
 // Block-Jacobi conjugate gradients while they are quick, a Cholesky factor kept over several steps where they are not.
 //
-// A solve that block Jacobi does not finish in `patience` iterations is finished with a factor of its own matrix, which then
-// preconditions the solves that follow, until one of them takes more than `refactor` iterations and a new factor is made, or
+// A solve that block Jacobi does not finish in as many iterations as there are particles (500 at least) is finished with a factor of its
+// own matrix, which then preconditions the solves that follow, until one of them takes more than `refactor` iterations and a new factor is made, or
 // the neighbour list changes and block Jacobi gets another chance. The matrix that the kept factor was made of is part of the
 // state of a run, so that a resumed run goes on with the same factor.
 #include <cstdint>

@@ -49,12 +49,12 @@ class BackwardDifferentiation final : public Integrator {
     a.velocity.resize(n);
     for (std::size_t k = 0; k < n; ++k) a.velocity[k] = (a.position[k] - state.position[k]) / dt;
     // Not its own error, which is of third order, but that of Euler's step in its place: motion with kinks, as of pairs that meet, has no
-    // third derivative to estimate.
+    // third derivative to estimate. Damped by each gap's own stiffness, as the step damps it [hairer1996], IV.8.
     if (with_error) {
       std::vector<double> rate = context.gap_rates(context.in_engine_order(a.velocity, a.angular_velocity));
       const std::vector<double> rate_before = context.gap_rates(context.in_engine_order(state.velocity, state.angular_velocity));
       const double factor = dt * dt / (dt + state.last_step);
-      for (std::size_t p = 0; p < rate.size(); ++p) rate[p] = factor * (rate[p] - rate_before[p]);
+      for (std::size_t p = 0; p < rate.size(); ++p) rate[p] = factor * context.memory_of_last_step()[p] * (rate[p] - rate_before[p]);
       a.error = context.gap_error(context.gaps_of_last_step(), rate);
     }
     return a;

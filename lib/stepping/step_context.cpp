@@ -65,8 +65,8 @@ void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
     const double reach = 6 * std::sqrt(4 * diffusivity * *problem_.stepping.time_step);
     range.at_least = std::max(range.at_least, std::min(reach, 0.25 * std::min(problem_.cell.width_x, problem_.cell.width_y)));
   }
-  // A wider skin lists more pairs and lasts longer.
-  range.skin = std::max(0.02, 0.8 * smallest);
+  // A wider skin lists more pairs and lasts longer. Without noise steps are so long that a narrow one is spent in one or two.
+  range.skin = std::max(0.02, (problem_.interactions.brownian ? 0.4 : 0.8) * smallest);
   list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
   assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);
   id_.resize(list_.order.size());

@@ -71,9 +71,9 @@ StepReport Stepper::advance(RunState& state, double longest) {
       state.time += dt;
       ++state.step;
       if (controlled) {
-        // A step cut short to meet an output time says nothing against the longer one.
+        // A step cut short to meet an output time says nothing against the longer one, unless even it was too long.
         const double wanted = next_step(dt, error);
-        state.preferred_step = dt < state.preferred_step ? std::max(wanted, std::min(state.preferred_step, 4 * wanted)) : wanted;
+        state.preferred_step = dt < state.preferred_step && error < 1 ? std::max(wanted, std::min(state.preferred_step, 4 * wanted)) : wanted;
       }
       return report;
     }
