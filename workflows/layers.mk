@@ -46,7 +46,6 @@ whole_set = $(if $(call table,$(1)),--set dewatering.file=$(word 2,$(call parts,
   $(foreach t,$(if $(call table,$(1)),$(wordlist 3,99,$(call parts,$(1))),$(call parts,$(1))),$(call setting,$t)) \
   $(if $(filter b,$(call parts,$(1))),,--set brownian=null) \
   $(if $(filter darcy,$(call parts,$(1))),--set dewatering.final_solids=null --set dewatering.reference_thickness=null,--set dewatering.reference_thickness="25 um") \
-  $(if $(full),,$(if $(filter p0,$(call parts,$(1))),--set stepping.integrator=newton_implicit --set stepping.tolerance=0.1)) \
   $(call same_flux,$(if $(call table,$(1)),,$(filter m%,$(call parts,$(1)))),$(filter darcy,$(call parts,$(1)))) \
   $(if $(filter 10um,$(call parts,$(1))),--set output.every="2 ms") --set stepping.until="$(call until,$(1))"
 # Darcy's flux goes with permeability over viscosity, so that a permeability that rises with the viscosity leaves it as it is at 0.89 mPa s.
@@ -55,7 +54,7 @@ same_flux = $(if $(1),$(if $(2),,--set dewatering.absorption.permeability="$(she
 # contacts, it may take several minutes of one core to the one or the other; quick runs end there instead. Those of 10 um, drained in a tenth of the
 # time, reach it before they can be at rest. Dear runs end at the last time that a claim asks for: those with Brownian motion, whose
 # steps are short at all times, those of the colloidal study, of a large piece, at other rates; the thin ones of several viscosities, which are compared at 75 wt-%; and the uncharged ones, in which every
-# pair becomes a contact, at 0.01 s, with a tolerance of 0.1 and newton_implicit (half a minute even so).
+# pair becomes a contact, at 0.1 s.
 until-10um-hll := 0.07
 until-10um-llh := 0.18
 until-10um-abs := 0.056
@@ -74,7 +73,7 @@ until-e-lhh := 0.403
 until-e-llh := 0.424
 told = $(patsubst u%,%,$(filter u%,$(call parts,$(1))))
 strategy_of = $(if $(table),e-$(word 2,$(parts)),$(firstword $(parts)))
-quick_end = $(if $(full),,$(or $(if $(filter p0,$(parts)),0.01),$(if $(filter 20um,$(parts)),0.12),$(if $(filter b h80 a10 thesis n3 w8,$(parts))$(and $(filter k%,$(parts)),$(filter hll,$(parts))),0.2),\
+quick_end = $(if $(full),,$(or $(if $(filter p0,$(parts)),0.1),$(if $(filter 20um,$(parts)),0.12),$(if $(filter b h80 a10 thesis n3 w8,$(parts))$(and $(filter k%,$(parts)),$(filter hll,$(parts))),0.2),\
   $(if $(filter 10um,$(parts)),$(until-10um-$(strategy_of))),$(until-$(strategy_of))))
 until = $(or $(call told,$(1)),$(call quick_end,$(1)),0.8) s
 # $(call layers,CASES): what each changes and lacks. To be called before ../rules.mk is read.
