@@ -13,7 +13,11 @@ namespace {
 class BackwardDifferentiation final : public Integrator {
  public:
   Attempt attempt(StepContext& context, const RunState& state, double dt, bool with_error) const override {
-    if (!(state.last_step > 0)) return single_step(context, state, dt, assembly::Treatment::Newton, with_error);
+    if (!(state.last_step > 0)) {
+      Attempt first = single_step(context, state, dt, assembly::Treatment::Newton, with_error);
+      first.end_pressure = at_end(first);
+      return first;
+    }
     const double w = dt / state.last_step, share = w * w / (1 + 2 * w), span = dt * (1 + w) / (1 + 2 * w);
     // Mean velocities belong to the middles of their steps.
     const double ahead = state.previous_step > 0 ? std::min((dt + state.last_step) / (state.last_step + state.previous_step), furthest) : 0;
@@ -43,6 +47,11 @@ class BackwardDifferentiation final : public Integrator {
     a.iterations = a.last.iterations;
     a.solves = a.last.solves;
     if (!a.last.good) return a;
+    // Forces are those at the step's end; reported are means over it.
+    a.end_pressure = at_end(a);
+    a.last.pressures.surface = 0.5 * (state.end_pressure[0] + a.end_pressure[0]);
+    a.last.pressures.substrate = 0.5 * (state.end_pressure[1] + a.end_pressure[1]);
+    a.last.pressures.liquid = 0.5 * (state.end_pressure[2] + a.end_pressure[2]);
     Vec3Array u;
     context.in_file_order(a.last.velocity, u, a.angular_velocity);
     a.position = moved(from, u, span);
@@ -61,6 +70,7 @@ class BackwardDifferentiation final : public Integrator {
   }
 
  private:
+  static std::array<double, 3> at_end(const Attempt& a) { return {a.last.pressures.surface, a.last.pressures.substrate, a.last.pressures.liquid}; }
   static constexpr double furthest = 1.5;  // what is extrapolated further is no guess
 };
 

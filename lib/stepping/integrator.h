@@ -11,6 +11,7 @@
 //   convex_splitting    newton_implicit with the attractions of the beginning; first order
 //   backward_differentiation  newton_implicit with the velocity of the step before: second order, one solution a step
 //                       (BDF2 with variable steps; [hairer1996])
+#include <array>
 #include <memory>
 
 #include "stepping/step_context.h"
@@ -18,7 +19,8 @@
 namespace pigment::stepping {
 
 struct Attempt {
-  StepSolution last;               // of the solve made last: good or why not, pressures, protrusion
+  StepSolution last;               // of the solve made last: good or why not, mean pressures over the step, protrusion
+  std::array<double, 3> end_pressure{};  // at the step's end: on surface and substrate, of the liquid; backward_differentiation alone
   Vec3Array position;              // at the step's end, file order
   Vec3Array velocity, angular_velocity;  // means over the step
   double error = 0;                // estimated, root mean square over near pairs, in units of gap + Debye length

@@ -24,7 +24,8 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
     redistributions.insert(redistributions.end(), {r.fall, r.height});
     redistributions.insert(redistributions.end(), r.residual.begin(), r.residual.end());
   }
-  return {{"scalars", {time, preferred_step, last_step, frame_height, list_temperature, surface_height, surface_velocity, previous_step}},
+  return {{"scalars", {time, preferred_step, last_step, frame_height, list_temperature, surface_height, surface_velocity, previous_step,
+                       end_pressure[0], end_pressure[1], end_pressure[2]}},
           {"position", flat(position)},
           {"velocity", flat(velocity)},
           {"angular_velocity", flat(angular_velocity)},
@@ -52,6 +53,7 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.surface_height = scalars.at(5);
   s.surface_velocity = scalars.at(6);
   s.previous_step = scalars.at(7);
+  for (std::size_t q = 0; q < 3; ++q) s.end_pressure[q] = scalars.at(8 + q);
   s.step = i.at("counters").at(0);
   s.frame = i.at("counters").at(1);
   s.solver_factor = i.at("solver_factor");

@@ -1,5 +1,6 @@
 #pragma once
 // Everything that can influence the rest of a run and is not an input: what a checkpoint holds.
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -25,6 +26,7 @@ struct RunState {
   Vec3Array previous_angular_velocity;
   double surface_height = 0;        // um, of the free surface: the dewatering's, or where a pressure-limited one lags behind
   double surface_velocity = 0;      // um/ms, of the last step
+  std::array<double, 3> end_pressure{};  // pN/um^2, at the end of the last step (stepping/integrator.h)
   std::vector<double> protrusion;   // guess for the free surface, um
   Vec3Array list_reference;         // positions at which the neighbour list was made
   double list_temperature = 0;      // K, of the liquid then: ranges follow it

@@ -56,6 +56,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
       report.height = context_.surface_height(attempt.last, state.time + dt);
       state.surface_velocity = (report.height - state.surface_height) / dt;
       state.surface_height = report.height;
+      state.end_pressure = attempt.end_pressure;
       state.previous_velocity = std::move(state.velocity);
       state.previous_angular_velocity = std::move(state.angular_velocity);
       state.velocity = std::move(attempt.velocity);

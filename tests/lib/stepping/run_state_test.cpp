@@ -32,6 +32,7 @@ RunState full_state() {
   s.preferred_step = 0.1;
   s.last_step = std::nextafter(0.1, 1.0);
   s.previous_step = std::nextafter(0.1, 1.0) * 2;
+  s.end_pressure = {std::nextafter(0.2, 1.0), 1.0 / 3, -1e-9};
   s.position = vectors(5, 0);
   s.velocity = vectors(5, 1);
   s.angular_velocity = vectors(5, 2);
@@ -69,7 +70,7 @@ bool same(const Redistribution& a, const Redistribution& b) { return same(a.resi
 // Every member: one that is added and forgotten here does not compile.
 void expect_same(const RunState& a, const RunState& b) {
   const auto& [step, frame, time, preferred_step, last_step, previous_step, position, velocity, angular_velocity, previous_velocity,
-               previous_angular_velocity, surface_height, surface_velocity, protrusion, list_reference, list_temperature, frame_position, frame_height,
+               previous_angular_velocity, surface_height, surface_velocity, end_pressure, protrusion, list_reference, list_temperature, frame_position, frame_height,
                solver_factor, redistribution, mass_centre, interval] = a;
   EXPECT_TRUE(same(step, b.step) && same(frame, b.frame));
   EXPECT_TRUE(same(time, b.time) && same(preferred_step, b.preferred_step) && same(last_step, b.last_step) && same(previous_step, b.previous_step));
@@ -79,6 +80,7 @@ void expect_same(const RunState& a, const RunState& b) {
   EXPECT_TRUE(same(previous_velocity, b.previous_velocity));
   EXPECT_TRUE(same(previous_angular_velocity, b.previous_angular_velocity));
   EXPECT_TRUE(same(surface_height, b.surface_height) && same(surface_velocity, b.surface_velocity));
+  EXPECT_TRUE(same(end_pressure, b.end_pressure));
   EXPECT_TRUE(same(protrusion, b.protrusion));
   EXPECT_TRUE(same(list_reference, b.list_reference) && same(list_temperature, b.list_temperature));
   EXPECT_TRUE(same(frame_position, b.frame_position) && same(frame_height, b.frame_height));
