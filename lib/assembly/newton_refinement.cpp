@@ -1,0 +1,180 @@
+// What a solution of the linear system says of the step: how far its gaps came out from those that it was linearised about, and where
+// Newton's method goes on.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "assembly/step_assembly.h"
+#include "forces/surface_spring.h"
+
+namespace pigment::assembly {
+
+namespace {
+
+// Particles that neither touch the surface nor leave it may be held in one pass and free in the next for ever. After some passes one
+// stays as it is that the surface holds back by less than kT/nm, or that sticks out by less than a tenth of an atom.
+constexpr double weak_hold = 4;  // pN
+
+// Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess.
+constexpr double linearisation_share = 0.005, linear_range = 0.3;
+
+// Splitting alone: with a gap further off than by its own length those within a tenth of it are put right before the others. And a bond
+// opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about.
+constexpr double focus_share = 0.1;
+constexpr double bond_reach = 1e-3, bond_rise = 1.15;  // um
+
+}  // namespace
+
+double StepAssembly::farthest_off(const std::vector<double>& u) const {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  double worst = 0;
+#pragma omp parallel for schedule(static) reduction(max : worst)
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [i, j] = pairs_[p];
+    Vec3 d = separation_[p];
+    for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
+    const double gap = d.norm() - radius_[i] - radius_[j], guess = geometry_[p].gap;
+    if (gap_begin_[p] > 0) worst = std::max(worst, std::abs(gap - guess) / guess);
+  }
+  return worst;
+}
+
+GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u, double scale, double tolerance) {
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+  const int chunks = topology_.chunks().count();
+  std::vector<GapCheck> checks(chunks);
+  std::vector<double> row;
+  double pressure = 0;
+  const bool undecided = passes_ >= 6;
+  if (interactions_.free_surface) {
+    solve::apply(system, u, row);
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < radius_.size(); ++k) {
+      const bool is_held = protrusion_guess_[k] == held;
+      protrusion_end_[k] = is_held ? 0 : position_[k].z() + dt_ * u[k * D + 2] + radius_[k] + interactions_.free_surface->roughness - surface_end_;
+      // What the row leaves is the force that keeps the particle at the surface.
+      if (is_held) holding_force_[k] = system.right_hand_side[k * D + 2] - row[k * D + 2];
+    }
+    if (interactions_.pressure_limited()) pressure = surface_pressure(u);
+  }
+  // One gap that came out far from its guess throws many others about: it alone is put right first, with those that are off nearly as far.
+  const double worst = split_ ? farthest_off(u) : 0, focus = worst > 1 ? focus_share * worst : 0;
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c) {
+    GapCheck& check = checks[c];
+    check.smallest_gap = std::numeric_limits<double>::infinity();
+    if (path_) follow_path(c, u, check);
+    for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1) && !path_; ++p) {
+      const auto [i, j] = pairs_[p];
+      Vec3 d = two_step_ || split_ ? separation_[p] : Vec3(normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]));
+      double along = 0;
+      for (int q = 0; q < 3; ++q) {
+        const double moved = dt_ * (u[j * D + q] - u[i * D + q]);
+        d[q] += moved;
+        along += normal_[p][q] * moved;
+      }
+      const double gap = d.norm() - radius_[i] - radius_[j];
+      if (newton_ && focus == 0) turn_[p] = gap - gap_from_[p] - along;
+      if (split_ && focus == 0 && std::abs(turn_[p]) > 0.01 * scale) {
+        // The axis half-way: along it the gap changes by what the spheres move, but for a term of fourth order.
+        normal_[p] = (separation_[p] + d).normalized();
+        turn_[p] = gap - gap_from_[p] - normal_[p].dot(d - separation_[p]);
+      }
+      if (gap < check.smallest_gap) {
+        check.smallest_gap = gap;
+        check.worst_pair = p;
+      }
+      double& guess = geometry_[p].gap;
+      if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
+      // A pair that overlapped from the start has no gap to keep open; its forces part it.
+      if (gap_begin_[p] <= 0 || !newton_) continue;
+      if (off_guess(gap, guess, two_step_ || split_ || guess != gap_begin_[p])) {
+        const double missed = (gap - guess) / (std::max(gap, 0.0) + scale);
+        check.miss += missed * missed;
+        const double off = std::abs(gap - guess) / guess, left = 0.5 * off * missed;
+        check.linearisation += left * left;
+        check.farthest = std::max(check.farthest, off);
+        check.refine = true;
+        if (off < focus) continue;
+        const StepForce force = pair_step_force(c, p);
+        double next = next_gap(gap, guess, force.tangent(gap), force);
+        if (split_ && guess < bond_reach) next = std::min(next, bond_rise * guess);
+        guess = bracket_[p].take(next, guess);
+      }
+    }
+    const bool pairs_refine = std::exchange(check.refine, false);
+    for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
+      const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
+      if (rough_) {
+        const Vec3 end = position_[k] + dt_ * Vec3(u[k * D], u[k * D + 1], u[k * D + 2]);
+        rough_->refine(k, laws_, liquid_.viscosity, dt_, end, newton_, check.refine, check.crossed);
+      } else if (interactions_.substrate && !path_) {
+        const double gap = z - a, begin = (two_step_ ? height_begin_[k] : position_[k].z()) - a;
+        double& guess = substrate_geometry_[k].gap;
+        if (interactions_.lubrication() && begin > 0) {
+          if (gap <= 0) check.crossed = true;
+          if (newton_ && off_guess(gap, guess, two_step_ || split_ || guess != begin)) {
+            const StepForce force = substrate_step_force(k);
+            guess = next_gap(gap, guess, force.tangent(gap), force);
+            check.refine = true;
+          }
+        } else if ((gap < 0) != (guess < 0)) {
+          guess = gap;
+          check.refine = true;
+        }
+      }
+      if (interactions_.free_surface) {
+        const double protrusion = z + a + interactions_.free_surface->roughness - surface_end_;
+        double& guess = protrusion_guess_[k];
+        const double before = guess;
+        if (guess == held) {
+          if (holding_force_[k] < (undecided ? -weak_hold : 0)) guess = 0;  // the surface lets go
+          else if (holding_force_[k] > forces::rigid_load(*interactions_.free_surface, a)) guess = 2 * forces::rigid_protrusion;
+        } else if (guess > 0) {
+          const forces::SpringForce spring = forces::lifted_spring(*interactions_.free_surface, a, guess);
+          const double taken = spring.force + spring.stiffness * (protrusion - guess);
+          const double true_force = forces::lifted_spring(*interactions_.free_surface, a, protrusion).force;
+          if (protrusion <= 0) guess = held;
+          // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle. The force rises ever more slowly with
+          // the height: Newton's method from below comes nearer without overshooting, so what left the constant part begins at its end.
+          else if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4)
+            guess = guess < forces::rigid_protrusion && protrusion > forces::rigid_protrusion ? forces::rigid_protrusion : protrusion;
+        } else if (protrusion > (undecided ? forces::rigid_protrusion : 0)) {
+          guess = held;  // caught
+        }
+        if (guess != before) check.refine = true;
+      }
+    }
+    check.only_pairs = !check.refine;
+    check.refine = check.refine || pairs_refine;
+  }
+  if (path_resistance_ && flow_) follow_flow(u);
+  ++passes_;
+  GapCheck all = checks[0];
+  for (std::size_t c = 1; c < checks.size(); ++c) {
+    all.miss += checks[c].miss;
+    all.linearisation += checks[c].linearisation;
+    all.farthest = std::max(all.farthest, checks[c].farthest);
+  }
+  for (const GapCheck& check : checks) {
+    all.refine = all.refine || check.refine;
+    all.crossed = all.crossed || check.crossed;
+    all.only_pairs = all.only_pairs && check.only_pairs;
+    if (check.smallest_gap < all.smallest_gap) {
+      all.smallest_gap = check.smallest_gap;
+      all.worst_pair = check.worst_pair;
+    }
+  }
+  const double left = std::sqrt(all.linearisation / static_cast<double>(radius_.size()));
+  if (newton_ && all.only_pairs && !all.crossed && all.farthest < linear_range && left < linearisation_share * tolerance) all.refine = false;
+  // Once the rest agrees at this height of the surface.
+  if (interactions_.pressure_limited() && !all.refine && !all.crossed && !search_.settle(pressure)) {
+    surface_end_ = search_.height();
+    all.refine = true;
+  }
+  all.surface_height = surface_end_;
+  return all;
+}
+
+}  // namespace pigment::assembly
