@@ -1,6 +1,8 @@
 #include "io/particle_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "io/h5.h"
 #include "lib/io/io_test_support.h"
@@ -266,6 +268,36 @@ TEST(ParticleFile, WarnsOfOverlapsAndGoesOn) {
   testing::internal::CaptureStderr();
   const ParticleFile apart(ByHand{}.write());
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// Against every pair looked at, in a layer so dense that most particles overlap several others.
+TEST(ParticleFile, CountsAllOverlaps) {
+  ByHand hand;
+  hand.position.clear();
+  hand.radius.clear();
+  hand.position_shape = {300, 3};
+  const double edges[] = {5e-6, 6e-6, 4e-6};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> along(0, 1);
+  for (int k = 0; k < 300; ++k) {
+    for (double edge : edges) hand.position.push_back(1e-9 + edge * along(random));
+    hand.radius.push_back(0.1e-6 + 0.4e-6 * along(random));
+  }
+  int expected = 0;
+  for (std::size_t a = 0; a < hand.radius.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      double squared = 0;
+      for (std::size_t d = 0; d < 3; ++d) {
+        double apart = std::abs(hand.position[3 * a + d] - hand.position[3 * b + d]);
+        if (d < 2) apart = std::min(apart, edges[d] - apart);
+        squared += apart * apart;
+      }
+      expected += std::sqrt(squared) < hand.radius[a] + hand.radius[b];
+    }
+  ASSERT_GT(expected, 300);
+  testing::internal::CaptureStderr();
+  const ParticleFile file(hand.write());
+  expect_contains(testing::internal::GetCapturedStderr(), std::to_string(expected) + " pairs of particles overlap; ");
 }
 
 TEST(ParticleFile, RefusesDamageAndOtherKinds) {
