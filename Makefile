@@ -66,10 +66,10 @@ bench-peers: configure
 	cmake --build $(BUILD) --parallel $(JOBS) --target all bench_peers
 	workflows/peers/compare.sh '$(abspath $(BUILD))/bin' '$(abspath $(BUILD))/bench' '$(BUILD)/peers'
 
-# Wall time against error (study-accuracy), and of the measuring tools, as docs/speed.md. Nothing else should run beside it.
+# Wall time against error (study-accuracy), of the measuring tools and, where study-layer-speed has been run, of whole layers, as docs/speed.md. Nothing else should run beside it.
 speed: study-accuracy
 	workflows/replace_if_changed.sh $(BUILD)/studies/accuracy/analyses.md workflows/accuracy/analyses.sh '$(abspath $(BUILD))/bin' '$(BUILD)/studies/accuracy/analyses'
-	workflows/replace_if_changed.sh docs/speed.md /usr/bin/python3 workflows/accuracy/speed_page.py '$(BUILD)/studies/accuracy'
+	workflows/replace_if_changed.sh docs/speed.md /usr/bin/python3 workflows/accuracy/speed_page.py '$(BUILD)/studies/accuracy' '$(BUILD)/studies/layer-speed'
 
 # What hindered drag changes in a draining layer, as docs/hindered-drag.md.
 hindered-drag: build

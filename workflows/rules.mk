@@ -161,7 +161,7 @@ JUDGED := $(RESULTS)/claims.csv $(FIGURES:%=$(RESULTS)/figures/%.svg)
 # claims.py puts all of them in place at its end, or none: where it fails, what stood stays.
 .PRECIOUS: $(JUDGED)
 judged_with := $(SIZE) $(CASES) / $(FIGURES)
-$(JUDGED) &: $(wildcard *.py) $(WORKFLOWS)/study.py $(WORKFLOWS)/layer.py $(sums_of_results) $(EXTRA:%=$(RESULTS)/%) \
+$(JUDGED) &: $(wildcard *.py) $(WORKFLOWS)/study.py $(WORKFLOWS)/layer.py $(WORKFLOWS)/run_errors.py $(sums_of_results) $(EXTRA:%=$(RESULTS)/%) \
     $(call other,$(judged_with),$(RESULTS)/.made/claims.settings)
 	@mkdir -p $(RESULTS)/.made
 	PYTHONPATH='$(WORKFLOWS)' PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 $(WORKFLOWS)/timed.py $(RESULTS)/.made/claims.took /usr/bin/python3 claims.py --results '$(RESULTS)' --size $(SIZE) --cases '$(CASES)' --figures '$(FIGURES)'

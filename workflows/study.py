@@ -71,13 +71,15 @@ class Study:
         self._figures[name] = (figure, caption)
         return figure, axes
 
-    def claim(self, section, claim, source, ours, decided_by, holds):
+    def claim(self, section, claim, source, ours, decided_by, holds, why=""):
         """One row of the table. section of the source ("4.2"); source: what it says, with its figure; ours: what came out, with
         the number that decides; decided_by: the test, so that a reader could apply it; holds: True, False, None (not decidable)
-        or FROM_INPUT."""
+        or FROM_INPUT; why: what was tried, and the cause that was found, which joins `ours` where the claim does not come out."""
         verdict = verdict_of(holds)
         if verdict not in (REPRODUCED, NOT_REPRODUCED, NOT_DECIDABLE, FROM_INPUT):
             raise SystemExit(f"{self.name}: verdict {verdict!r} of the claim {claim!r} is none of the four")
+        if why and verdict in (NOT_REPRODUCED, NOT_DECIDABLE):
+            ours += f". Why: {why}"
         row = (self.name, str(section), claim, source, ours, decided_by, verdict)
         self._claims.append([re.sub(r"\s+", " ", cell).strip() for cell in row])
         if not all(self._claims[-1]):

@@ -4,58 +4,23 @@ import csv
 import json
 
 import numpy as np
-from scipy.spatial import cKDTree
 
+from run_errors import MEASURES, differences, state
 from study import Study
 
 SHORT = 0.01   # s: until here single trajectories are compared
-NEAR = 50e-9   # separations that count
-CLUSTERED = 20e-9
-GRID = np.linspace(0, NEAR, 501)
 MARGIN = 0.1   # wall times within this share of one another are alike
 
 study = Study()
 folder = study.results / study.size
 
 
-def near_gaps(position, radius, edges):
-    """Surface separations below NEAR of all pairs, with the pairs. Periodic in x and y."""
-    position = position.copy()
-    position[:, :2] %= edges[:2]
-    position[:, 2] -= min(0.0, position[:, 2].min())
-    box = np.array([edges[0], edges[1], 10 * (np.ptp(position[:, 2]) + edges[2])])
-    pairs = []
-    # By size: a pair counts where the larger of the two looks, with a reach of its own. Trees of octaves keep that short.
-    octave = np.floor(np.log2(radius / radius.min())).astype(int)
-    for high in np.unique(octave):
-        mine = np.flatnonzero(octave == high)
-        for low in np.unique(octave[octave <= high]):
-            others = np.flatnonzero(octave == low)
-            reach = radius[mine].max() + radius[others].max() + NEAR
-            a, b = cKDTree(position[mine], boxsize=box), cKDTree(position[others], boxsize=box)
-            found = a.sparse_distance_matrix(b, reach, output_type="coo_matrix")
-            i, j = mine[found.row], others[found.col]
-            gap = found.data - radius[i] - radius[j]
-            keep = (gap < NEAR) & (i != j) & ((low != high) | (i < j))
-            pairs.append(np.c_[i[keep], j[keep], gap[keep]])
-    return np.concatenate(pairs)
-
-
 def measures(name):
-    with study.file(f"{study.size}/{name}", "trajectory") as t, study.file(f"{study.size}/{name}", "solids") as s:
-        layer, observables = t["particles/layer"], t["observables"]
-        time, radius = layer["position/time"][:], layer["radius"][:]
-        short = int(np.argmin(np.abs(time - SHORT)))
-        position = layer["position/value"]
-        pairs = near_gaps(position[-1], radius, np.asarray(layer["box/edges/value"][-1]))
-        close = pairs[pairs[:, 2] < CLUSTERED, :2].astype(int)
-        return {"short": position[short] - position[0], "profile": s["solids/volume_fraction"][-1], "gaps": np.sort(pairs[:, 2]), "end": time[-1],
-                "clustered": len(np.unique(close)) / len(radius), "pressure": observables["surface_pressure/value"][-4:].mean(),
-                "steps": int(layer["position/step"][-1]), "iterations": float(observables["solver_iterations/value"][1:].mean())}
-
-
-def share(gaps):
-    return np.searchsorted(gaps, GRID) / max(1, len(gaps))
+    case = f"{study.size}/{name}"
+    with study.file(case, "trajectory") as t:
+        layer = t["particles/layer"]
+        short = int(np.argmin(np.abs(layer["position/time"][:] - SHORT)))
+        return state(study, case) | {"short": layer["position/value"][short] - layer["position/value"][0]}
 
 
 reference = measures("reference")
@@ -67,10 +32,8 @@ for path in sorted(folder.glob("*/run.json")):
     if run["status"] == 0:
         m = measures(path.parent.name)
         error = np.linalg.norm(m["short"] - reference["short"], axis=1)
-        row |= {"steps": m["steps"], "iterations": m["iterations"], "end": m["end"], "displacement_rms": np.sqrt(np.mean(error**2)) / moved, "displacement_median": np.median(error) / moved,
-                "profile_l1": np.abs(m["profile"] - reference["profile"]).sum() / reference["profile"].sum(),
-                "separation_ks": np.abs(share(m["gaps"]) - share(reference["gaps"])).max(), "clustered": abs(m["clustered"] - reference["clustered"]),
-                "pressure": abs(m["pressure"] / reference["pressure"] - 1)}
+        row |= {"steps": m["steps"], "iterations": m["iterations"], "end": m["end"], "displacement_rms": np.sqrt(np.mean(error**2)) / moved, "displacement_median": np.median(error) / moved}
+        row |= differences(m, reference)
     rows.append(row)
 columns = ["run", "status", "seconds", "steps", "iterations", "end", "displacement_rms", "displacement_median", "profile_l1", "separation_ks", "clustered", "pressure"]
 
@@ -96,9 +59,7 @@ def on_front(r, error):
     return not any(o["seconds"] < (1 - MARGIN) * r["seconds"] and o[error] <= r[error] for o in done)
 
 
-ERRORS = (("displacement_rms", "displacement at 10 ms, rms", None), ("displacement_median", "displacement at 10 ms, median", None),
-          ("profile_l1", "solids profile, L1", 0.01), ("separation_ks", "separations < 50 nm, KS", 0.02), ("clustered", "clustered fraction at 20 nm", 0.01),
-          ("pressure", "surface pressure (relative)", 0.05))
+ERRORS = (("displacement_rms", "displacement at 10 ms, rms", None), ("displacement_median", "displacement at 10 ms, median", None), *MEASURES)
 figure, axes = study.figure("front", "Error against wall time of every knob; the line joins the runs that none beats in both", columns=3, rows=2)
 for axis, (error, label, bound) in zip(axes.flat, ERRORS):
     kinds = {}
@@ -129,9 +90,7 @@ for path in sorted(folder.glob("noise/*/run.json")):
     row = {"run": path.parent.name, "status": run["status"], "seconds": run["seconds"]}
     if run["status"] == 0:
         m = measures(f"noise/{row['run']}")
-        row |= {"steps": m["steps"], "profile_l1": np.abs(m["profile"] - calm["profile"]).sum() / calm["profile"].sum(),
-                "separation_ks": np.abs(share(m["gaps"]) - share(calm["gaps"])).max(), "clustered": abs(m["clustered"] - calm["clustered"]),
-                "pressure": abs(m["pressure"] / calm["pressure"] - 1), "pairs": len(m["gaps"])}
+        row |= {"steps": m["steps"]} | differences(m, calm)
     noises.append(row)
 rows += noises
 write_table("noise.csv", ["run", "status", "seconds", "steps", "profile_l1", "separation_ks", "clustered", "pressure"], noises)

@@ -1,10 +1,12 @@
-"""Prints docs/speed.md: speed_page.py RESULTS, RESULTS = build/studies/accuracy, with the larger SIZE where both were run."""
+"""Prints docs/speed.md: speed_page.py RESULTS LAYERS, RESULTS = build/studies/accuracy, with the larger SIZE where both were run; LAYERS =
+build/studies/layer-speed, which may not have been run."""
 import csv
 import json
+import os
 import pathlib
 import sys
 
-results = pathlib.Path(sys.argv[1])
+results, layers = map(pathlib.Path, sys.argv[1:])
 size = next(s for s in ("full", "quick") if (results / s / "accuracy.csv").exists())
 layer = {"full": "the drying study's layer of 20 um from 65 wt-% to 0.2 s", "quick": "10 um of the drying study's layer from 65 wt-% to 0.05 s"}[size]
 packing = json.loads((results / size / "packing.json").read_text())
@@ -57,5 +59,21 @@ NOISE-STEP: `fd` is the full noise, `implicit` and `explicit` the same with the 
             print(f"| {row['run']} | | over {float(row['seconds']):.0f}: status {row['status']} | | | | |")
         else:
             print(f"| {row['run']} | {row['steps']} | {float(row['seconds']):.1f} | {percent(row['profile_l1'])} | {float(row['separation_ks']):.3f} | {float(row['clustered']):.4f} | {percent(row['pressure'])} |")
+if (layers / "layer.csv").exists():
+    with open(layers / "layer.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    size = (layers / ".made" / "claims.settings").read_text().split()[0]
+    print(f"""
+## Whole layers
+
+`make study-layer-speed SIZE={size}`: HLL to rest, with a double layer of 5, 1 and 0.5 nm; converged runs to 0.3 s; at -25 mV and without charge to 80 wt-%. Threads "all"
+are every core ({os.cpu_count()} here); 1: converged runs, whose times do not count, may run side by side. Errors at 0.3 s against the finest tolerance: those of the other converged runs are chance, since paths are chaotic.
+
+| run | particles | threads | steps | wall time, s | CPU time, s | outcome | at, s | solids, wt-% | smallest gap, nm | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|""")
+    for row in rows:
+        errors = ((percent(row["profile_l1"]), f"{float(row['separation_ks']):.3f}", f"{float(row['clustered']):.4f}", percent(row["pressure"])) if row["profile_l1"] else ("",) * 4)
+        print(f"| {row['run']} | {row['particles']} | {row['threads']} | {row['steps']} | {float(row['seconds']):.1f} | {float(row['cpu_seconds']):.1f} | {row['outcome'].replace('_', ' ')} | {float(row['end']):.3f} | "
+              f"{100 * float(row['solids']):.1f} | {float(row['smallest_gap_nm']):.3g} | " + " | ".join(errors) + " |")
 if analyses.exists():
     print("\n## Measuring tools, pictures, exports\n\n" + analyses.read_text().strip())

@@ -1,0 +1,76 @@
+"""What a whole layer costs and how far it is off: layer.csv, and the claims on both."""
+import csv
+import os
+
+import numpy as np
+
+from run_errors import MEASURES, differences, state
+from study import Study
+
+COMPARED = 0.3        # s: when the layers are held against one another
+SECONDS = 20.0        # for a layer of 30 um
+study = Study()
+full = study.size == "full"
+layer = study.cases[0]
+references = sorted((c for c in study.cases if "-tolerance-" in c), key=lambda c: float(c.split("-tolerance-")[1]))
+finest = references[0]
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def look(case):
+    seconds, cpu, threads = (study.results / case / ".made" / "consolidate.took").read_text().split()
+    with study.file(case, "trajectory") as f:
+        steps, time, seen = f["particles/layer/position/step"][:], f["particles/layer/position/time"][:], f["observables"]
+        return {"run": case, "particles": len(f["particles/layer/radius"]), "seconds": float(seconds), "cpu_seconds": float(cpu), "threads": threads, "steps": int(steps[-1]),
+                "outcome": text(f["pigment"].attrs["outcome"]), "end": float(time[-1]), "solids": float(seen["solids_mass_fraction/value"][-1]),
+                "smallest_gap_nm": 1e9 * float(seen["minimum_gap/value"][:].min()), "time": time, "step": steps}
+
+
+runs = {case: look(case) for case in study.cases}
+states = {case: state(study, case, COMPARED) for case in (layer, *references) if runs[case]["end"] >= COMPARED - 1e-6}
+for case in references[1:] + [layer]:
+    runs[case] |= differences(states[case], states[finest]) if case in states else {}
+columns = ["run", "particles", "threads", "seconds", "cpu_seconds", "steps", "outcome", "end", "solids", "smallest_gap_nm", *(key for key, *_ in MEASURES)]
+part = study.results / "layer.csv.part"
+with open(part, "w", newline="") as file:
+    writer = csv.DictWriter(file, columns, lineterminator="\n", restval="", extrasaction="ignore")
+    writer.writeheader()
+    writer.writerows(runs.values())
+part.replace(study.results / "layer.csv")
+
+# ---- wall time. It counts on two cores, at the size that was asked for, where the run had both.
+alone = full and os.cpu_count() == 2 and all(runs[c]["threads"] in ("all", "2") for c in study.cases if c not in references)
+where = "wall time of pigment-consolidate with 2 threads on 2 cores and nothing beside it; SIZE=full, without -j"
+RESTED = ("immobile", "first_critical_concentration")
+thin_layer, thinner, charged, uncharged = (runs[c] for c in study.cases if c != layer and c not in references)
+spent = lambda r: f"{r['seconds']:.1f} s ({r['cpu_seconds']:.1f} s of CPU time), {r['steps']} steps, {r['outcome']} at {r['end']:.3f} s"    # noqa: E731
+r = runs[layer]
+study.claim("3.4", f"A layer dries from 65 wt-% to rest within {SECONDS:g} s", "none", f"{r['particles']} particles: {spent(r)}", f"at most {SECONDS:g} s, at rest; {where}",
+            bool(r["seconds"] <= SECONDS and r["outcome"] in RESTED) if alone else None)
+study.claim("3.4", "A double layer of 1 nm takes at most three times as long", "none", spent(thin_layer), f"at most {3 * SECONDS:g} s, at rest; {where}",
+            bool(thin_layer["seconds"] <= 3 * SECONDS and thin_layer["outcome"] in RESTED) if alone else None)
+study.claim("3.4", "A double layer of 0.5 nm comes to rest as well", "none", spent(thinner), "at rest or at the first critical concentration, status 0", thinner["outcome"] in RESTED)
+ratio = uncharged["seconds"] / charged["seconds"]
+study.claim("4.4", "Uncharged particles take at most ten times as long as particles of -25 mV", "none",
+            f"{ratio:.1f} times: {spent(uncharged)}, {100 * uncharged['solids']:.1f} wt-%; {spent(charged)}, {100 * charged['solids']:.1f} wt-%", f"at most 10, both to 80 wt-%; {where}",
+            bool(ratio <= 10 and min(uncharged["solids"], charged["solids"]) >= 0.8) if alone else None)
+study.claim("4.4", "Uncharged particles never overlap on the way to 80 wt-%", "none", f"smallest gap of all frames {uncharged['smallest_gap_nm']:.3f} nm, to {100 * uncharged['solids']:.1f} wt-%", "above zero, to 80 wt-%",
+            bool(uncharged["smallest_gap_nm"] > 0 and uncharged["solids"] >= 0.8))
+
+# ---- error, and what chance makes of converged runs
+chance = {key: max((differences(states[a], states[b])[key] for i, a in enumerate(references) for b in references[:i]), default=np.inf) for key, *_ in MEASURES}
+for key, label, bound in MEASURES:
+    error = runs[layer].get(key)
+    study.claim("accuracy", f"A whole layer is close enough to the converged run: {label}", "none",
+                f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s; converged runs differ by up to {chance[key]:.3g} from one another, which no error is told from",
+                f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound))
+
+figure, axis = study.figure("progress", f"Steps of whole layers against time; {runs[layer]['particles']} particles and, thinner, of {charged['particles']}", width=110)
+for case in study.cases:
+    axis.plot(runs[case]["time"], runs[case]["step"], "--" if case in references else "-", label=f"{case}: {runs[case]['seconds']:.0f} s")
+axis.set(xlabel="time (s)", ylabel="steps", yscale="log", ylim=(10, None))
+axis.legend(fontsize=5.5)
+study.finish()
