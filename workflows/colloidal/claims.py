@@ -96,12 +96,14 @@ for band, name, source in ((0, "cake", 5), (2, "skin", 2)):
     s = Sample((a.bands(at(a, 0.2)) - b.bands(at(b, 0.2)))[band] for a, b in zip(double_layer("2.5"), double_layer(10)))
     early = Sample((a.bands(at(a, 0.1)) - b.bands(at(b, 0.1)))[band] for a, b in zip(double_layer("2.5"), double_layer(10)))
     study.claim("4.4", f"A thin double layer sharpens the {name}, by about {source} wt-%", "Figs. 41, 42", f"2.5 nm less 10 nm: {s.text()} wt-% at 0.2 s, {early.text()} at 0.1 s",
-                f"0.5 to 2 um from the {'substrate' if band == 0 else 'surface'} at 0.2 s, above half of that ({STUDENT})", s.above(source / 2))
+                f"0.5 to 2 um from the {'substrate' if band == 0 else 'surface'} at 0.2 s, above half of that ({STUDENT})", s.above(source / 2),
+                why=f"by 0.2 s the layer has {np.mean([a.mean_wt[at(a, 0.2)] for a in double_layer('2.5')]):.0f} wt-% and is even, with the rates chosen; the source prints none")
 thinner = [(k, one(f"k{k}-p25")) for k in ("10", "5", "2.5", "1", "0.5")]
 thinner = [(k, r) for k, r in thinner if r]
 gains = [r.bands(at(r, 0.2))[0] for _, r in thinner]
 study.claim("4.4", "Below 2.5 nm, which the source could not afford, the cake goes on to sharpen", "not in the source", "at the substrate at 0.2 s: " + ", ".join(f"{k} nm {g:.1f}" for (k, _), g in zip(thinner, gains)) + " wt-% (one packing)",
-            "more at 0.5 nm than at 2.5 nm by over 1 wt-%", None if thinner[-1][0] != "0.5" else bool(gains[-1] - gains[2] > 1))
+            "more at 0.5 nm than at 2.5 nm by over 1 wt-%", None if thinner[-1][0] != "0.5" else bool(gains[-1] - gains[2] > 1),
+            why="the layer is even by 0.2 s; at 0.1 s " + ", ".join(f"{k} nm {r.bands(at(r, 0.1))[0]:.1f}" for k, r in thinner) + ", so that what repulsion there is below 2.5 nm no longer holds particles apart")
 
 # ---- viscosity: with one and the same dewatering, and with Darcy's law left to it
 VISCOSITIES = ("0.89", "2", "4")
@@ -116,7 +118,8 @@ for end, how in (("", "the dewatering fixed"), ("-darcy", "Darcy's flux unscaled
     when = {m: np.mean([r.time[halfway(r)] for r in viscous[end][m]]) for m in VISCOSITIES}
     s = Sample(a.spread(halfway(a)) - b.spread(halfway(b)) for a, b in zip(viscous[end]["4"], viscous[end]["0.89"]))
     study.claim("4.4", f"A higher viscosity keeps gradients, {how}", "Fig. 35", f"s.d. of the profile when the layer has {HALFWAY} wt-%: " + ", ".join(f"{m} mPa s {x.text(2)} ({when[m]:.3f} s)" for m, x in spreads.items()) + f" wt-%; from 0.89 to 4 mPa s {s.text(2)} more",
-                f"more by over {KEEPS} wt-% ({STUDENT})", s.above(KEEPS))
+                f"more by over {KEEPS} wt-% ({STUDENT})", s.above(KEEPS),
+                why="" if end else "every resistance grows alike, and with the fall of the surface the motion that it imposes stays; only colloidal forces lose beside drag")
 heights = {end: [np.mean([r.thickness[at(r, 0.05)] / UM for r in viscous[end][m]]) for m in VISCOSITIES] for end in viscous}
 study.claim("4.4", "A higher viscosity slows consolidation", "Fig. 35, text", "surface at 0.05 s, absorption by Darcy's law: " + ", ".join(f"{m} mPa s {x:.2f} um" for m, x in zip(VISCOSITIES, heights["-darcy"])) + f"; with the dewatering fixed they differ by {np.ptp(heights['']) * 1000:.1f} nm",
             "Darcy's flux falls with viscosity, and the fall of the surface is imposed", FROM_INPUT if heights["-darcy"][0] < heights["-darcy"][1] < heights["-darcy"][2] else False)

@@ -12,6 +12,7 @@ runs = {case: Layer(study, case) for case in study.cases}
 sweep = study.cases[0]
 tail = re.sub(r"^[a-z]+-[0-9]+um|-s\d+", "", sweep)          # what all cases of the sweep have in common: width, noise
 thicknesses = sorted({int(m[1]) for c in runs if (m := re.match(r"[a-z]+-(\d+)um", c)) and re.sub(r"^[a-z]+-[0-9]+um|-s\d+", "", c) == tail})
+still = tail.removesuffix("-b")      # of the runs without Brownian motion, to which all that is changed is compared
 thin, thick = thicknesses[0], 25 if 25 in thicknesses else thicknesses[-1]
 
 
@@ -71,7 +72,9 @@ of_thin, of_thick = sample("hll", thin, most(Layer.cake)), sample("hll", thick, 
 thin_skin = sample("hll", thin, most(Layer.skin))
 study.claim("4.2", "Thin layers show no significant gradient from cake or skin", "Fig. 25, 10 um",
             f"HLL, {thin} um: cake at most {of_thin.text()} wt-% over the middle, skin {thin_skin.text()} wt-%",
-            f"both maxima in time below {GRADIENT:g} wt-% beyond the packing's own profile ({STUDENT})", both(of_thin.below(GRADIENT), thin_skin.below(GRADIENT)))
+            f"both maxima in time below {GRADIENT:g} wt-% beyond the packing's own profile ({STUDENT})", both(of_thin.below(GRADIENT), thin_skin.below(GRADIENT)),
+            why=f"both are less than half of the {thick} um layer's, and pass: at {EARLY:g} s, when the thick one has its cake, {sample('hll', thin, cake).text()} and "
+                f"{sample('hll', thin, lambda run: run.skin(run.frame(EARLY))).text()}; the source prints no numbers")
 early = sample("hll", thick, cake)
 study.claim("4.2", "Thick layers show a clear filter cake early", "Fig. 25, 30 um",
             f"HLL, {thick} um, {EARLY:g} s: {early.text()} wt-% over the middle, at most {of_thick.text()}", f"at {EARLY:g} s more than {GRADIENT:g} wt-% ({STUDENT})", early.above(GRADIENT))
@@ -87,9 +90,10 @@ for d, extent in (("hll", "clearly"), ("eva", "to some extent")):
     study.claim("4.2", f"A skin forms under {d.upper()} ({extent})", "Fig. 26, text", f"at most {sample(d, thick, skin).text()} wt-% over the middle by {STRONG:g} s; {s.text()} more than LLH (at 0.16 s {sample(d, thick, late).text()} and {difference(d, 'llh', thick, late).text()}: the middle catches up)",
                 f"more than under LLH, and above {GRADIENT if d == 'hll' else 0:g} wt-%; the largest by 0.2 s, a measure chosen after the first runs had shown the values at 0.16 s ({STUDENT})", both(s.above(), sample(d, thick, skin).above(GRADIENT if d == "hll" else 0)))
 s = sample("llh", thick, most(Layer.skin))
-study.claim("4.2", "No skin forms under LLH, the layer being dewatered already when the strong drying begins", "Fig. 26, text", f"at most {s.text()} wt-% over the middle at any time" + "".join(f"; with a substrate ten times as open {most(Layer.skin)(r):.1f} by {r.time[-1]:.2g} s (one packing), so that it hangs on the share that the substrate "
-            "takes, which the source does not print" for c, r in runs.items() if c == f"llh-{thick}um{tail}-s1-a10" or c == f"llh-{thick}um-{tail.split('-')[1]}-s1-a10"),
-            f"maximum in time below {GRADIENT:g} wt-% ({STUDENT})", s.below(GRADIENT))
+open_substrate = [r for c, r in runs.items() if c == f"llh-{thick}um{still}-s1-a10"]
+study.claim("4.2", "No skin forms under LLH, the layer being dewatered already when the strong drying begins", "Fig. 26, text", f"at most {s.text()} wt-% over the middle at any time",
+            f"maximum in time below {GRADIENT:g} wt-% ({STUDENT})", s.below(GRADIENT),
+            why="it hangs on the share that the substrate takes, which the source does not print" + "".join(f": {most(Layer.skin)(r):.1f} by {r.time[-1]:.2g} s where it is ten times as open (one packing)" for r in open_substrate))
 peaks = [sample(d, thick, most(Layer.spread)) for d in STRATEGIES]
 ends = [sample(d, thick, lambda run: run.spread(len(run.time) - 1)) for d in STRATEGIES]
 fall = [sample(d, thick, lambda run: most(Layer.spread)(run) - 2 * run.spread(len(run.time) - 1)) for d in STRATEGIES]
@@ -109,7 +113,10 @@ study.claim("4.2", "The number of 250 nm particles peaks at the top under HLL", 
 pairs = list(zip(*(seeds(d, thick) for d in STRATEGIES)))
 s = Sample((share(2)(h) + share(2)(e)) / (share(2)(l) + share(2)(a)) - 1 for h, l, a, e in pairs)
 study.claim("4.2", "Some 25 % more small particles gather under HLL and EVA than under LLH and ABS", "Fig. 28, text", f"{100 * s.mean:.1f} ± {100 * s.error:.1f} % more at the surface",
-            f"share of the solid volume in the band 0.5 to 2 um below the surface, (HLL + EVA)/(LLH + ABS) - 1, above 10 % ({STUDENT})", s.above(0.10))
+            f"share of the solid volume in the band 0.5 to 2 um below the surface, (HLL + EVA)/(LLH + ABS) - 1, above 10 % ({STUDENT})", s.above(0.10),
+            why="no model that was tried gives more: HLL over LLH alone " + ", ".join(f"{100 * (share(2)(a[0]) / share(2)(b[0]) - 1):.0f} % {name}" for name, end in
+                (("as chosen", still + "-s1"), ("with Brownian motion", still + "-s1-b"), ("with the source's hydrodynamics", still + "-s1-thesis"), ("with strong evaporation doubled", still + "-s1-h80"))
+                if (a := [r for c, r in runs.items() if c == f"hll-{thick}um{end}"]) and (b := [r for c, r in runs.items() if c == f"llh-{thick}um{end}"])) + " (one packing)")
 flat = Sample(max(abs(share(b)(run) - 1) for b in range(3)) for d in STRATEGIES for run in seeds(d, thick))
 study.claim("4.2", "The volume fraction of 250 nm particles is nearly constant throughout the layers", "Fig. 28", f"{100 * flat.mean:.1f} ± {100 * flat.error:.1f} % off in the band that is most",
             f"largest deviation of three bands from the start, mean of all runs, below 10 % ({STUDENT})", flat.below(0.10))
@@ -119,12 +126,12 @@ study.claim("4.2", "No excess of small particles in the filter cake, even where 
 
 # ---- what the conclusions hang on
 # Beside runs without Brownian motion, of which there are as many packings; the larger piece and the changed runs have one each.
-still = tail.removesuffix("-b")
 variants = [("as chosen", still), ("strong evaporation doubled", still + "-h80"), ("substrate ten times as open", still + "-a10"), ("Brownian motion", still + "-b"),
             ("hydrodynamics as printed", still + "-thesis"), ("a third of the tolerance", still + "-n3")]
 anywhere = lambda end: re.sub(r"-w[\d.]+", "-w", end)     # noqa: E731
 changes = sorted({re.sub(r"^[a-z]+-[0-9]+um|-s\d+", "", c) for c in runs})
 variants += [("larger piece of layer", end) for end in changes if end != still and anywhere(end) == anywhere(still)]
+ends = dict(variants)
 found = {}
 for label, end in variants:
     if seeds("hll", thick, end) and seeds("llh", thick, end):
@@ -143,7 +150,9 @@ for label, (a, b, c, d) in found.items():
              "The source's own resistance functions give the same cake and skin" if label.startswith("hydro") else "The tolerance changes neither cake nor skin" if label.startswith("a third") else "Brownian motion of particles above 250 nm changes cake and skin little")
     study.claim("4.2", words, "not in the source",
                 f"{label}: skin {a.mean:.1f} (HLL), {b.mean:.1f} (LLH), cake {c.mean:.1f}, {d.mean:.1f} wt-%; as chosen {base[0].text()}, {base[1].text()}, {base[2].text()}, {base[3].text()}",
-                "HLL's skin exceeds LLH's by two standard deviations of that difference between packings" if label.startswith(("strong", "substrate")) else "all four within three standard deviations of the packings", holds)
+                "HLL's skin exceeds LLH's by two standard deviations of that difference between packings" if label.startswith(("strong", "substrate")) else "all four within three standard deviations of the packings", holds,
+                why="in the same packing " + ", ".join(f"{name} {what(seeds(d, thick, ends[label])[0]) - what(seeds(d, thick, still)[0]):+.1f} ({d.upper()})" for name, what in (("skin", skin), ("cake", cake)) for d in ("hll", "llh"))
+                + " wt-%, where packings hardly differ in the cake")
 
 # ---- figures
 colours = {d: f"C{i}" for i, d in enumerate(STRATEGIES)}

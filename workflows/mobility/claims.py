@@ -36,6 +36,22 @@ thick = {d: [moves[c] for c in of_seeds(study.cases, f"{d}-{thick_tail}")] for d
 SURFACE = 4
 pairs = lambda a, b, what: Sample(what(x) - what(y) for x, y in zip(thick[a], thick[b]))   # noqa: E731
 
+
+
+def spreads(m, time, low, high, below_surface=False):
+    """Of fine particles that start so far from the substrate, or below the surface: root mean squares of one lateral component, of the vertical
+    displacement, and of the latter about the fall at the particle's own height (a straight line in the height at the start). um"""
+    (begin, radius, box), _ = frame_of(study, m.case, 0)
+    (end, _, _), _ = frame_of(study, m.case, time)
+    away = box[2] - begin[:, 2] if below_surface else begin[:, 2]
+    chosen = (2 * radius <= FINE) & (away >= low) & (away < high)
+    x, y, z = ((end - begin)[chosen] / UM).T
+    height = begin[chosen, 2]
+    return np.array([np.sqrt(np.mean(x**2 + y**2) / 2), np.sqrt(np.mean(z**2)), np.std(z - np.polyval(np.polyfit(height, z, 1), height))])
+
+
+FINE = 0.3 * UM     # diameter of the finest class
+THIN_TIME, THICK_TIME, LATE = 0.05, 0.2, 0.34
 relative = lambda m, band: m.deviation[band] / abs(m.mean_vertical[band])                  # noqa: E731
 s = Sample(relative(m, 1) - relative(m, 3) for m in thin)
 study.claim("4.3", "A sharp peak of high displacement at the surface", "Fig. 30, HLL, 10 um, 0.05 s",
@@ -45,20 +61,27 @@ study.claim("4.3", "A sharp peak of high displacement at the surface", "Fig. 30,
 s = Sample(np.min(m.mean_absolute[1:4]) - m.mean_absolute[0] for m in thin)
 study.claim("4.3", "Shorter displacements at the substrate", "Fig. 30", "; ".join(Sample(m.mean_absolute[b] for m in thin).text(2) for b in range(4)) + " um, quarters from the substrate up",
             f"mean displacement of the lowest quarter below every other ({STUDENT})", s.above())
+quarter = np.mean([spreads(m, THIN_TIME, 0, frame_of(study, m.case, 0)[0][2][2] / 4) for m in thin], axis=0)
+compressed = lambda values: f"the band is compressed, its top falls farther than its bottom; about the fall at their own height vertical {values[2]:.3f} um, lateral {values[0]:.3f}"     # noqa: E731
 s = Sample(m.rms_lateral[0] - m.deviation[0] for m in thin)
 raw = Sample(m.rms_lateral[0] - m.rms_vertical[0] for m in thin)
 study.claim("4.3", "Lateral displacement dominates over vertical at the substrate", "Fig. 31, HLL, 10 um",
             f"lateral {Sample(m.rms_lateral[0] for m in thin).text(3)} um, vertical {Sample(m.rms_vertical[0] for m in thin).text(3)} um, about its mean {Sample(m.deviation[0] for m in thin).text(3)} um "
-            f"(root mean squares of one component)", f"lateral above vertical with its mean, in the lowest quarter ({STUDENT})", raw.above())
+            f"(root mean squares of one component)", f"lateral above vertical with its mean, in the lowest quarter ({STUDENT})", raw.above(), why=compressed(quarter) + "; next to the substrate: the next row")
+touching = [spreads(m, THIN_TIME, 0, FINE) for m in thin]
+study.claim("4.3", "The same for the particles next to the substrate", "Fig. 31: at the boundary of substrate and filter cake",
+            f"lateral {Sample(t[0] for t in touching).text(3)} um, vertical {Sample(t[1] for t in touching).text(3)} um", f"likewise, of those whose centres start within one diameter, {FINE / UM:g} um ({STUDENT})",
+            Sample(t[0] - t[1] for t in touching).above())
 study.claim("4.3", "Vertical motion at the substrate is pinned: about its mean it is smaller than the lateral", "text with Fig. 31", f"lateral less vertical about its mean: {s.text(3)} um",
-            f"above 0 in the lowest quarter ({STUDENT})", s.above())
+            f"above 0 in the lowest quarter ({STUDENT})", s.above(), why=compressed(quarter))
 s = Sample(m.rms_lateral[SURFACE] - m.deviation[SURFACE] for m in thick["hll"])
 study.claim("4.3", "Lateral displacement dominates under a skin too, the layer's fall apart", "text with Fig. 32, HLL, 25 um, 0.2 s",
             f"0.5 to 2 um below the surface: lateral {Sample(m.rms_lateral[SURFACE] for m in thick['hll']).text(3)} um, vertical about its mean {Sample(m.deviation[SURFACE] for m in thick['hll']).text(3)} um, "
-            f"mean {Sample(m.mean_vertical[SURFACE] for m in thick['hll']).text(2)} um", f"lateral above vertical about its mean ({STUDENT})", s.above())
+            f"mean {Sample(m.mean_vertical[SURFACE] for m in thick['hll']).text(2)} um", f"lateral above vertical about its mean ({STUDENT})", s.above(),
+            why=compressed(np.mean([spreads(m, THICK_TIME, 0.5 * UM, 2 * UM, True) for m in thick["hll"]], axis=0)))
 
 
-def top(m, time=0.2):
+def top(m, time=THICK_TIME):
     run = layers[m.case]
     return run.bands(run.frame(time))[2]
 
@@ -67,17 +90,28 @@ def start(m):
     return layers[m.case].bands(0)[2]
 
 
+def mean_solids(m, time=THICK_TIME):
+    run = layers[m.case]
+    return run.mean_wt[run.frame(time)]
+
+
 s = Sample((top(a) - start(a)) - (top(b) - start(b)) for a, b in zip(thick["hll"], thick["llh"]))
 study.claim("4.3", "The top has 82 wt-% under HLL against 68 under LLH after 0.2 s", "Fig. 32, text",
             f"{Sample(map(top, thick['hll'])).text()} against {Sample(map(top, thick['llh'])).text()} wt-% (at the start {Sample(map(start, thick['hll'])).text()}); difference {s.text()}",
             f"0.5 to 2 um below the surface, less the packing's own: difference within 14 ± 5 wt-% ({STUDENT}); the mean solids of the two layers differ by what the scene imposes",
-            both(s.above(9), s.below(19)))
+            both(s.above(9), s.below(19)),
+            why="the source prints no rates, and its layer under LLH is hardly drier at 0.2 s than it was applied; here the whole layer has "
+                f"{Sample(mean_solids(m) for m in thick['llh']).mean:.0f} wt-% by then, against {Sample(mean_solids(m) for m in thick['hll']).mean:.0f} under HLL")
 s = pairs("hll", "llh", lambda m: m.rms_lateral[SURFACE])
 study.claim("4.3", "Lateral mobility near the surface is significantly higher under HLL than under LLH", "Fig. 32",
             "; ".join(f"{d.upper()} {Sample(m.rms_lateral[SURFACE] for m in thick[d]).text(3)} um" for d in ("hll", "llh")), f"root mean square, 0.5 to 2 um below the surface ({STUDENT})", s.above())
 s = pairs("abs", "eva", lambda m: m.rms_lateral[SURFACE])
 study.claim("4.3", "Lateral mobility near the surface is higher under ABS than under EVA", "Fig. 34",
-            "; ".join(f"{d.upper()} {Sample(m.rms_lateral[SURFACE] for m in thick[d]).text(3)} um" for d in ("abs", "eva")), f"likewise ({STUDENT})", s.above())
+            "; ".join(f"{d.upper()} {Sample(m.rms_lateral[SURFACE] for m in thick[d]).text(3)} um" for d in ("abs", "eva")), f"likewise ({STUDENT})", s.above(),
+            why=f"under ABS the cake has not reached the surface by {THICK_TIME:g} s, where the solids are {Sample(map(top, thick['abs'])).mean:.0f} wt-%, against {Sample(map(top, thick['eva'])).mean:.0f} under EVA; the next row")
+sideways = {d: [spreads(m, LATE, 0.5 * UM, 2 * UM, True)[0] for m in thick[d]] for d in ("abs", "eva")}
+study.claim("4.3", "The same when the cake has reached the surface", "not the time of the source, whose rates are not printed", f"{LATE:g} s: " + "; ".join(f"{d.upper()} {Sample(v).text(3)} um, solids {Sample(top(m, LATE) for m in thick[d]).mean:.0f} wt-%" for d, v in sideways.items()),
+            f"likewise ({STUDENT})", Sample(np.subtract(sideways["abs"], sideways["eva"])).above())
 s = pairs("abs", "eva", lambda m: abs(m.mean_vertical[SURFACE]))
 falls = {d: layers[thick[d][0].case].thickness[0] - layers[thick[d][0].case].thickness[layers[thick[d][0].case].frame(0.2)] for d in ("abs", "eva")}
 imposed = falls["abs"] > falls["eva"]
