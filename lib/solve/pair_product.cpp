@@ -1,5 +1,7 @@
 #include "solve/pair_product.h"
 
+#include <cstdint>
+
 #include "solve/pair_kernel.h"
 
 namespace pigment::solve {
@@ -107,6 +109,14 @@ PIGMENT_INLINE void add_own_block(const OwnBlock& block, const double* x, double
   }
 }
 
+// A block is read once a product, from far away: asked for this many blocks before its turn.
+constexpr std::size_t blocks_ahead = 6, bytes_of_line = 64;
+template <typename Block>
+PIGMENT_INLINE void ask_beyond(const Block& block) {
+  const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(&block) + blocks_ahead * sizeof(Block);  // past the end it asks for nothing that is used
+  for (std::size_t at = 0; at < sizeof(Block); at += bytes_of_line) __builtin_prefetch(reinterpret_cast<const void*>(ahead + at));
+}
+
 template <int D>
 PIGMENT_INLINE void add_chunk(const PairSystem& system, int chunk, const double* x, double* y) {
   constexpr int S = stride<D>;
@@ -133,9 +143,17 @@ PIGMENT_INLINE void add_chunk(const PairSystem& system, int chunk, const double*
   if (!system.own.empty())
     for (const OwnBlock& block : system.own[chunk]) add_own_block<D>(block, x, y);
   const std::size_t halo = topology.first_slot();
+  // What the chunk reads of others lies scattered: asked for all at once, it is there when the pairs need it.
+  for (std::size_t h = topology.halo_begin(chunk); h < topology.halo_begin(chunk + 1); ++h) __builtin_prefetch(x + static_cast<std::size_t>(topology.owner(h)) * S);
   for (std::size_t h = (halo + topology.halo_begin(chunk)) * S; h < (halo + topology.halo_begin(chunk + 1)) * S; ++h) y[h] = 0;
-  for (const FullBlock& block : system.full[chunk].blocks()) add_full_block<D>(block, x, y);
-  for (const SqueezeBlock& block : system.squeeze[chunk].blocks()) add_squeeze_block<D>(block, x, y);
+  for (const FullBlock& block : system.full[chunk].blocks()) {
+    ask_beyond(block);
+    add_full_block<D>(block, x, y);
+  }
+  for (const SqueezeBlock& block : system.squeeze[chunk].blocks()) {
+    ask_beyond(block);
+    add_squeeze_block<D>(block, x, y);
+  }
 }
 
 template <int D>
@@ -163,6 +181,8 @@ double finish_chunk(const PairSystem& system, int chunk, bool mask, const double
   const PairTopology& topology = *system.topology;
   const std::size_t halo = topology.first_slot();
   const int begin = topology.chunks().begin[chunk], end = topology.chunks().begin[chunk + 1];
+  for (const std::int32_t* slot = topology.slots_begin(begin); slot != topology.slots_begin(end); ++slot)
+    __builtin_prefetch(y + (halo + static_cast<std::size_t>(*slot)) * S);
   for (int k = begin; k < end; ++k) {
     Lanes sum[S / lanes];
     for (int q = 0; q < S / lanes; ++q) load(sum[q], y + static_cast<std::size_t>(k) * S + q * lanes);

@@ -15,12 +15,11 @@ PairTopology::PairTopology(std::size_t particles, const std::vector<std::int32_t
   pair_begin_.assign(count + 1, pair_i.size());
   halo_begin_.assign(count + 1, 0);
   std::vector<std::int32_t> slot_of(particles, -1);
-  std::vector<std::int32_t> owner;  // particle of each halo slot
   std::size_t p = 0;
   for (int c = 0; c < count; ++c) {
     pair_begin_[c] = p;
-    halo_begin_[c] = owner.size();
-    const std::size_t first = owner.size();
+    halo_begin_[c] = owner_.size();
+    const std::size_t first = owner_.size();
     for (; p < pair_i.size() && pair_i[p] < chunks_.begin[c + 1]; ++p) {
       assert(pair_i[p] >= chunks_.begin[c]);
       const std::int32_t j = pair_j[p];
@@ -29,21 +28,21 @@ PairTopology::PairTopology(std::size_t particles, const std::vector<std::int32_t
         continue;
       }
       if (slot_of[j] < 0) {
-        slot_of[j] = static_cast<std::int32_t>(owner.size());
-        owner.push_back(j);
+        slot_of[j] = static_cast<std::int32_t>(owner_.size());
+        owner_.push_back(j);
       }
       target_[p] = static_cast<std::int32_t>(first_slot()) + slot_of[j];
     }
-    for (std::size_t s = first; s < owner.size(); ++s) slot_of[owner[s]] = -1;
+    for (std::size_t s = first; s < owner_.size(); ++s) slot_of[owner_[s]] = -1;
   }
   pair_begin_[count] = pair_i.size();
-  halo_begin_[count] = owner.size();
+  halo_begin_[count] = owner_.size();
   slot_begin_.assign(particles + 1, 0);
-  for (std::int32_t k : owner) ++slot_begin_[k + 1];
+  for (std::int32_t k : owner_) ++slot_begin_[k + 1];
   for (std::size_t k = 0; k < particles; ++k) slot_begin_[k + 1] += slot_begin_[k];
-  slots_.resize(owner.size());
+  slots_.resize(owner_.size());
   std::vector<std::int32_t> next(slot_begin_.begin(), slot_begin_.end() - 1);
-  for (std::size_t s = 0; s < owner.size(); ++s) slots_[next[owner[s]]++] = static_cast<std::int32_t>(s);
+  for (std::size_t s = 0; s < owner_.size(); ++s) slots_[next[owner_[s]]++] = static_cast<std::int32_t>(s);
 }
 
 namespace {

@@ -42,6 +42,7 @@ class PairTopology {
   std::size_t first_slot() const { return (particles_ + lanes - 1) / lanes * lanes; }
   std::size_t halo_count() const { return halo_begin_.empty() ? 0 : halo_begin_.back(); }
   std::size_t halo_begin(int chunk) const { return halo_begin_[chunk]; }
+  std::int32_t owner(std::size_t slot) const { return owner_[slot]; }  // the particle of a halo slot
   // Halo slots that belong to a particle, in fixed order.
   const std::int32_t* slots_begin(std::size_t k) const { return slots_.data() + slot_begin_[k]; }
   const std::int32_t* slots_end(std::size_t k) const { return slots_.data() + slot_begin_[k + 1]; }
@@ -49,7 +50,7 @@ class PairTopology {
  private:
   std::size_t particles_ = 0;
   Chunks chunks_;
-  std::vector<std::int32_t> target_, slots_, slot_begin_;
+  std::vector<std::int32_t> target_, owner_, slots_, slot_begin_;
   std::vector<std::size_t> pair_begin_, halo_begin_;
 };
 
