@@ -34,7 +34,7 @@ double StepAssembly::farthest_off(const std::vector<double>& u) const {
     const auto [i, j] = pairs_[p];
     Vec3 d = separation_[p];
     for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
-    const double gap = d.norm() - radius_[i] - radius_[j], guess = geometry_[p].gap;
+    const double gap = d.norm() - radius_[i] - radius_[j], guess = guess_[p];
     if (gap_begin_[p] > 0) worst = std::max(worst, std::abs(gap - guess) / guess);
   }
   return worst;
@@ -75,17 +75,17 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         along += normal_[p][q] * moved;
       }
       const double gap = d.norm() - radius_[i] - radius_[j];
-      if (newton_ && focus == 0) turn_[p] = gap - gap_from_[p] - along;
+      if (newton_ && focus == 0) turn_[p] = gap - gap_from(p) - along;
       if (split_ && focus == 0 && std::abs(turn_[p]) > 0.01 * scale) {
         // The axis half-way: along it the gap changes by what the spheres move, but for a term of fourth order.
         normal_[p] = (separation_[p] + d).normalized();
-        turn_[p] = gap - gap_from_[p] - normal_[p].dot(d - separation_[p]);
+        turn_[p] = gap - gap_from(p) - normal_[p].dot(d - separation_[p]);
       }
       if (gap < check.smallest_gap) {
         check.smallest_gap = gap;
         check.worst_pair = p;
       }
-      double& guess = geometry_[p].gap;
+      double& guess = guess_[p];
       if (gap_begin_[p] > 0 && gap <= 0) check.crossed = true;
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;

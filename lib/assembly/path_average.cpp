@@ -66,6 +66,7 @@ void StepAssembly::begin_path() {
   const int chunks = topology_.chunks().count();
   separation_.resize(pairs_.size());
   term_begin_.resize(pairs_.size());
+  mean_force_.resize(pairs_.size());
   substrate_term_begin_.resize(substrate_geometry_.size());
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
@@ -75,16 +76,17 @@ void StepAssembly::begin_path() {
       separation_[p] = normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]);
       term_begin_[p] = {};
     }
-    for (const auto& law : laws_)
-      law->add(std::span<const forces::PairGeometry>(geometry_).subspan(begin, end - begin), std::span(term_begin_).subspan(begin, end - begin));
+    for (std::size_t p = begin; p < end; p += law_pairs) {
+      const std::size_t last = std::min(p + law_pairs, end);
+      add_laws(p, last, std::span(term_begin_).subspan(p, last - p));
+    }
     if (interactions_.substrate)
       for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k)
         substrate_term_begin_[k] = substrate_term(substrate_geometry_[k]);
   }
 }
 
-void StepAssembly::path_forces(int chunk, std::vector<double>& force, std::vector<double>& stiffness) const {
-  const std::size_t begin = topology_.pair_begin(chunk), end = topology_.pair_begin(chunk + 1);
+void StepAssembly::path_forces(std::size_t begin, std::size_t end, std::span<double> force, std::span<double> stiffness) const {
   if (!path_force_ || passes_ == 0) {
     // Not moved yet: the mean force is that at the beginning, and follows the end of the step by half.
     for (std::size_t p = begin; p < end; ++p) {
@@ -93,11 +95,10 @@ void StepAssembly::path_forces(int chunk, std::vector<double>& force, std::vecto
     }
     return;
   }
-  std::vector<forces::PairTerm>& term = term_[chunk];
-  term.assign(end - begin, {});
-  for (const auto& law : laws_) law->add(std::span(geometry_).subspan(begin, end - begin), term);
+  forces::PairTerm term[law_pairs] = {};
+  add_laws(begin, end, std::span(term, end - begin));
   for (std::size_t p = begin; p < end; ++p) {
-    const MeanForce mean = mean_force(term_begin_[p], term[p - begin], gap_begin_[p], geometry_[p].gap);
+    const MeanForce mean = mean_force(term_begin_[p], term[p - begin], gap_begin_[p], guess_[p]);
     force[p - begin] = mean.force;
     stiffness[p - begin] = mean.stiffness;
   }
@@ -135,9 +136,9 @@ void StepAssembly::follow_path(int chunk, const std::vector<double>& u, GapCheck
       check.smallest_gap = gap;
       check.worst_pair = p;
     }
-    double& guess = geometry_[p].gap;
-    const double work = std::abs(force_[chunk][p - topology_.pair_begin(chunk)] * guess);  // of the mean force to the guess
-    if (scalars_[p].squeeze > 0 || gap <= 0 || work > least_work) judge(gap, guess, gap_begin_[p]);
+    double& guess = guess_[p];
+    const double work = std::abs(mean_force_[p] * guess);  // of the mean force to the guess
+    if (squeeze_[p] > 0 || gap <= 0 || work > least_work) judge(gap, guess, gap_begin_[p]);
     guess = next_guess(gap, guess, lubrication && gap_begin_[p] > 0);
     if (!path_resistance_) continue;
     normal_[p] = (separation_[p] + d).normalized();

@@ -13,12 +13,6 @@ namespace pigment::assembly {
 
 namespace {
 
-std::vector<int> chunk_of_pairs(const solve::PairTopology& t) {
-  std::vector<int> count;
-  for (int c = 0; c < t.chunks().count(); ++c) count.push_back(static_cast<int>(t.pair_begin(c + 1) - t.pair_begin(c)));
-  return count;
-}
-
 solve::PairTopology topology_of(std::size_t particles, const std::vector<neighbours::IndexPair>& pairs) {
   std::vector<std::int32_t> i(pairs.size()), j(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -37,48 +31,33 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   const std::size_t n = particles.size();
   radius_.resize(n);
   mass_.resize(n);
-  std::vector<double> potential(n);
+  potential_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     radius_[k] = particles.radius[order_[k]];
     mass_[k] = particles.mass[order_[k]];
-    potential[k] = interactions.surface_potential[particles.species[order_[k]]];
-  }
-  geometry_.resize(pairs_.size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const auto [i, j] = pairs_[p];
-    geometry_[p] = {0, radius_[i], radius_[j], potential[i], potential[j]};
+    potential_[k] = interactions.surface_potential[particles.species[order_[k]]];
   }
   if (interactions.substrate && interactions.height_field) {
-    rough_.emplace(interactions, radius_, potential);
+    rough_.emplace(interactions, radius_, potential_);
   } else if (interactions.substrate) {
     substrate_geometry_.resize(n);
     for (std::size_t k = 0; k < n; ++k)
-      substrate_geometry_[k] = {0, radius_[k], std::numeric_limits<double>::infinity(), potential[k],
-                                interactions.substrate->surface_potential.value_or(potential[k])};
+      substrate_geometry_[k] = {0, radius_[k], std::numeric_limits<double>::infinity(), potential_[k],
+                                interactions.substrate->surface_potential.value_or(potential_[k])};
   }
   if (interactions.pressure_limited()) entry_pressure_ = forces::entry_pressure(*interactions.free_surface, radius_);
   if (interactions.hindered()) flow_.emplace(radius_, cell.area(), cell.height, interactions.height_field.get());
   normal_.resize(pairs_.size());
+  guess_.resize(pairs_.size());
   gap_begin_.resize(pairs_.size());
-  gap_from_.resize(pairs_.size());
-  squeeze_from_.resize(pairs_.size());
   resistance_gap_.resize(pairs_.size());
   resistance_height_.resize(n);
-  scalars_.resize(pairs_.size());
-  bracket_.resize(pairs_.size());
-  turn_.resize(pairs_.size());
+  squeeze_.resize(pairs_.size());
+  near_.resize(topology_.chunks().count());
   position_.resize(n);
   protrusion_guess_.assign(n, 0.0);
   protrusion_end_.assign(n, 0.0);
   holding_force_.assign(n, 0.0);
-  const std::vector<int> count = chunk_of_pairs(topology_);
-  force_.resize(count.size());
-  stiffness_.resize(count.size());
-  term_.resize(count.size());
-  for (std::size_t c = 0; c < count.size(); ++c) {
-    force_[c].resize(count[c]);
-    stiffness_[c].resize(count[c]);
-  }
 }
 
 void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liquid& liquid, double dt, Treatment treatment,
@@ -106,8 +85,8 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     for (const auto& [name, law] : interactions_.colloidal) laws_.push_back(law->prepare(liquid));
     prepared_temperature_ = liquid.temperature;
   }
-  std::fill(bracket_.begin(), bracket_.end(), GapBracket{});
-  std::fill(turn_.begin(), turn_.end(), 0.0);
+  bracket_.assign(newton_ ? pairs_.size() : 0, GapBracket{});
+  turn_.assign(newton_ ? pairs_.size() : 0, 0.0);
   const std::size_t n = radius_.size();
   external_force_.resize(force.empty() ? 0 : n);
   const int chunks = topology_.chunks().count();
@@ -117,6 +96,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     wall_squeeze_from_.resize(n);
   }
   if (two_step_ || split_) separation_.resize(pairs_.size());
+  if (two_step_) squeeze_from_.resize(pairs_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < n; ++k) {
     position_[k] = (two_step_ ? two_step->from : position)[order_[k]];
@@ -148,20 +128,22 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     }
   }
 #pragma omp parallel for schedule(static)
-  for (int c = 0; c < chunks; ++c)
+  for (int c = 0; c < chunks; ++c) {
+    near_[c].clear();
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
       const auto [i, j] = pairs_[p];
       if (two_step_) {
-        begin_two_step(p, position, *two_step);
+        begin_two_step(c, p, position, *two_step);
         continue;
       }
       const Vec3 d = cell_.minimum_image(position_[j] - position_[i]);
       const double r = d.norm();
       normal_[p] = d / r;
       if (split_) separation_[p] = d;
-      gap_begin_[p] = gap_from_[p] = squeeze_from_[p] = geometry_[p].gap = resistance_gap_[p] = r - radius_[i] - radius_[j];
-      if (interactions_.lubrication()) scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]);
+      gap_begin_[p] = guess_[p] = resistance_gap_[p] = r - radius_[i] - radius_[j];
+      if (interactions_.lubrication()) set_scalars(c, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]));
     }
+  }
   wall_.clear();
   surface_.clear();
   if (path_) {
@@ -184,10 +166,13 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
   for (int c = 0; c < chunks; ++c) {
     const std::size_t first = topology_.pair_begin(c), count = topology_.pair_begin(c + 1) - first;
     standing_force_[c].assign(count, 0.0);
-    for (const auto& law : laws_)
-      if (law->concave()) law->add(std::span(geometry_).subspan(first, count), standing_force_[c], stiffness_[c]);
+    double unused[law_pairs] = {};
+    for (std::size_t p = first; p < first + count; p += law_pairs) {
+      const std::size_t end = std::min(p + law_pairs, first + count);
+      add_laws(p, end, Laws::Concave, std::span(standing_force_[c]).subspan(p - first, end - p), std::span(unused, end - p));
+    }
     for (std::size_t p = first; p < first + count; ++p)
-      if (standing_force_[c][p - first] < 0 && scalars_[p].squeeze > 0 && gap_begin_[p] > 0) geometry_[p].gap = gap_alone(pair_step_force(c, p), geometry_[p]);
+      if (standing_force_[c][p - first] < 0 && squeeze_[p] > 0 && gap_begin_[p] > 0) guess_[p] = gap_alone(pair_step_force(c, p), geometry(p));
   }
   if (!interactions_.substrate || rough_) return;
   substrate_standing_force_.assign(n, 0.0);
@@ -201,7 +186,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       substrate_geometry_[k].gap = gap_alone(substrate_step_force(static_cast<int>(k)), substrate_geometry_[k]);
 }
 
-void StepAssembly::begin_two_step(std::size_t p, const Vec3Array& position, const TwoStep& two_step) {
+void StepAssembly::begin_two_step(int chunk, std::size_t p, const Vec3Array& position, const TwoStep& two_step) {
   const auto [i, j] = pairs_[p];
   const std::int32_t fi = order_[i], fj = order_[j];
   const double contact = radius_[i] + radius_[j];
@@ -213,58 +198,90 @@ void StepAssembly::begin_two_step(std::size_t p, const Vec3Array& position, cons
   separation_[p] = from;
   normal_[p] = predicted / r;
   gap_begin_[p] = gap;
-  gap_from_[p] = from.norm() - contact;
   turn_[p] = normal_[p].dot(from) - from.norm();
   double guess = r - contact;
   if (gap > 0) guess = std::max(guess, largest_fall * gap);
-  geometry_[p].gap = resistance_gap_[p] = guess;
+  guess_[p] = resistance_gap_[p] = guess;
   squeeze_from_[p] = guess;
   if (!interactions_.lubrication()) return;
-  scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess);
-  if (scalars_[p].squeeze > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(two_step.share * std::log(gap / gap_before)) : 0;
+  set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess));
+  if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(two_step.share * std::log(gap / gap_before)) : 0;
+}
+
+void StepAssembly::set_scalars(int chunk, std::size_t p, const resistance::PairScalars& scalars) {
+  squeeze_[p] = scalars.squeeze;
+  if (scalars.shear > 0) near_[chunk].push_back({static_cast<std::int32_t>(p), scalars});
+}
+
+forces::PairGeometry StepAssembly::geometry(std::size_t p) const {
+  const auto [i, j] = pairs_[p];
+  return {guess_[p], radius_[i], radius_[j], potential_[i], potential_[j]};
+}
+
+double StepAssembly::gap_from(std::size_t p) const {
+  return two_step_ ? separation_[p].norm() - (radius_[pairs_[p].i] + radius_[pairs_[p].j]) : gap_begin_[p];
+}
+
+void StepAssembly::add_laws(std::size_t begin, std::size_t end, Laws which, std::span<double> force, std::span<double> stiffness) const {
+  forces::PairGeometry at[law_pairs];
+  for (std::size_t p = begin; p < end; ++p) at[p - begin] = geometry(p);
+  for (const auto& law : laws_)
+    if (which == Laws::All || law->concave() == (which == Laws::Concave)) law->add(std::span(at, end - begin), force, stiffness);
+}
+
+void StepAssembly::add_laws(std::size_t begin, std::size_t end, std::span<forces::PairTerm> sum) const {
+  forces::PairGeometry at[law_pairs];
+  for (std::size_t p = begin; p < end; ++p) at[p - begin] = geometry(p);
+  for (const auto& law : laws_) law->add(std::span(at, end - begin), sum);
 }
 
 void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs) const {
   const int D = system.unknowns_per_particle();
   const std::size_t begin = topology_.pair_begin(chunk), end = topology_.pair_begin(chunk + 1);
-  std::vector<double>&force = force_[chunk], &stiffness = stiffness_[chunk];
-  if (split_) std::copy(standing_force_[chunk].begin(), standing_force_[chunk].end(), force.begin());
-  else std::fill(force.begin(), force.end(), 0.0);
-  std::fill(stiffness.begin(), stiffness.end(), 0.0);
-  if (path_) {
-    if (!resistance_only_) path_forces(chunk, force, stiffness);
-  } else {
-    for (const auto& law : laws_)
-      if (!split_ || !law->concave()) law->add(std::span(geometry_).subspan(begin, end - begin), force, stiffness);
-  }
+  double force[law_pairs], stiffness[law_pairs];
   solve::FullPairs& full = system.full[chunk];
   solve::SqueezePairs& squeeze = system.squeeze[chunk];
   full.clear();
   squeeze.clear();
   const double mu = liquid_.viscosity;
+  auto near = near_[chunk].begin();
   for (std::size_t p = begin; p < end; ++p) {
+    const std::size_t at_hand = (p - begin) % law_pairs;
+    if (at_hand == 0) {
+      const std::size_t last = std::min(p + law_pairs, end), count = last - p;
+      if (split_) std::copy_n(standing_force_[chunk].begin() + static_cast<std::ptrdiff_t>(p - begin), count, force);
+      else std::fill_n(force, count, 0.0);
+      std::fill_n(stiffness, count, 0.0);
+      if (!path_) add_laws(p, last, split_ ? Laws::NotConcave : Laws::All, std::span(force, count), std::span(stiffness, count));
+      else if (!resistance_only_) path_forces(p, last, std::span(force, count), std::span(stiffness, count));
+      if (path_) std::copy_n(force, count, mean_force_.begin() + static_cast<std::ptrdiff_t>(p));
+    }
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
-    const double k = implicit_ ? std::max(stiffness[p - begin], 0.0) : 0, guess = geometry_[p].gap;
-    double f = force[p - begin] + (path_ && !path_force_ ? 0 : k * (guess - gap_from_[p] - turn_[p]));
+    const double k = implicit_ ? std::max(stiffness[at_hand], 0.0) : 0, guess = guess_[p], turn = newton_ ? turn_[p] : 0, from = gap_from(p);
+    double f = force[at_hand] + (path_ && !path_force_ ? 0 : k * (guess - from - turn));
     const std::int32_t target = topology_.target(p);
     const double at = resistance_gap_[p];
-    if (path_resistance_ && passes_ > 0 && interactions_.lubrication())
-      scalars_[p] = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);
-    const resistance::PairScalars& s = scalars_[p];
+    resistance::PairScalars s{squeeze_[p]};
+    const bool listed = near != near_[chunk].end() && near->pair == static_cast<std::int32_t>(p);
+    if (listed) s = (near++)->scalars;
+    if (path_resistance_ && passes_ > 0 && interactions_.lubrication()) {
+      s = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);
+      squeeze_[p] = s.squeeze;
+    }
+    const double reduced_radius = radius_[i] * radius_[j] / (radius_[i] + radius_[j]);
     double viscous = s.squeeze;
     if (two_step_) {
       if (viscous > 0 && squeeze_from_[p] > 0 && guess > 0) {
-        const double c = resistance::squeeze_constant(geometry_[p].reduced_radius()), weight = squeeze_weight(p);
+        const double c = resistance::squeeze_constant(reduced_radius), weight = squeeze_weight(p);
         viscous += weight * c * (1 / guess - 1 / at);
-        f += mu * weight * c * (std::log(squeeze_from_[p] / guess) + (guess - gap_from_[p] - turn_[p]) / guess) / dt_;
+        f += mu * weight * c * (std::log(squeeze_from_[p] / guess) + (guess - from - turn) / guess) / dt_;
       }
     } else if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
-      const forces::PairGeometry& g = geometry_[p];
       const double weight = squeeze_weight(p);
-      const resistance::SqueezeStep step = resistance::squeeze_step(g.reduced_radius(), gap_begin_[p], guess, at);
+      const resistance::SqueezeStep step = resistance::squeeze_step(reduced_radius, gap_begin_[p], guess, at);
       viscous += weight * step.coefficient;
-      f += mu * weight * (step.impulse - resistance::squeeze_constant(g.reduced_radius()) * turn_[p] / guess) / dt_;
+      f += mu * weight * (step.impulse - resistance::squeeze_constant(reduced_radius) * turn / guess) / dt_;
     }
     if (f != 0)
       for (int d = 0; d < 3; ++d) {
@@ -340,18 +357,17 @@ double StepAssembly::rough_gap(const Vec3& position, double radius) const {
 }
 
 StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
-  const forces::PairGeometry& g = geometry_[p];
-  StepForce f{laws_, g, gap_from_[p], squeeze_from_[p]};
+  const forces::PairGeometry g = geometry(p);
+  StepForce f{laws_, g, gap_from(p), squeeze_from(p)};
   f.turn = turn_[p];
   f.split = split_;
   if (split_) f.standing = standing_force_[chunk][p - topology_.pair_begin(chunk)];
-  const resistance::PairScalars& s = scalars_[p];
   if (!(f.squeeze_from > 0)) {
     f.squeeze_from = g.gap;
-  } else if (s.squeeze > 0) {
+  } else if (squeeze_[p] > 0) {
     const double singular = liquid_.viscosity * squeeze_weight(p) * resistance::squeeze_constant(g.reduced_radius()) / dt_;
     f.singular = singular;
-    f.linear = liquid_.viscosity * s.squeeze / dt_ - singular / resistance_gap_[p];
+    f.linear = liquid_.viscosity * squeeze_[p] / dt_ - singular / resistance_gap_[p];
   }
   return f;
 }
@@ -376,14 +392,13 @@ double StepAssembly::gap_alone(StepForce force, const forces::PairGeometry& pair
 }
 
 double StepAssembly::squeeze_weight(std::size_t p) const {
-  const forces::PairGeometry& g = geometry_[p];
-  return resistance::taper(resistance_gap_[p] / std::min(g.radius_a, g.radius_b), interactions_.hydrodynamics.taper.squeeze_begin,
+  return resistance::taper(resistance_gap_[p] / std::min(radius_[pairs_[p].i], radius_[pairs_[p].j]), interactions_.hydrodynamics.taper.squeeze_begin,
                            interactions_.hydrodynamics.taper.squeeze_end);
 }
 
 double StepAssembly::pair_force(std::size_t p) const {
   double force = 0;
-  for (const auto& law : laws_) force += law->switched(geometry_[p]).force;
+  for (const auto& law : laws_) force += law->switched(geometry(p)).force;
   return force;
 }
 

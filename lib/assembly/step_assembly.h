@@ -8,6 +8,7 @@
 // (refine). The impulse diverges as h1 -> 0, so that no gap crosses zero.
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "assembly/gap_guess.h"
@@ -121,6 +122,11 @@ class StepAssembly {
   SubstrateState substrate_state(int k) const;
   resistance::SqueezeStep wall_squeeze(int k) const;  // the whole perpendicular term of the substrate
   double squeeze_weight(std::size_t p) const;         // taper on the singular part of a pair's squeeze resistance
+  forces::PairGeometry geometry(std::size_t p) const;  // at the guess
+  // What a step of the pair moves from: its gap then, and the gap whose logarithm its squeeze starts from (TwoStep::from).
+  double gap_from(std::size_t p) const;
+  double squeeze_from(std::size_t p) const { return two_step_ ? squeeze_from_[p] : gap_begin_[p]; }
+  void set_scalars(int chunk, std::size_t p, const resistance::PairScalars&);
   StepForce pair_step_force(int chunk, std::size_t p) const;
   StepForce substrate_step_force(int k) const;
   double gap_alone(StepForce, const forces::PairGeometry&) const;
@@ -132,8 +138,13 @@ class StepAssembly {
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
-  void begin_two_step(std::size_t pair, const Vec3Array& position, const TwoStep&);
-  void path_forces(int chunk, std::vector<double>& force, std::vector<double>& stiffness) const;
+  void begin_two_step(int chunk, std::size_t pair, const Vec3Array& position, const TwoStep&);
+  void path_forces(std::size_t begin, std::size_t end, std::span<double> force, std::span<double> stiffness) const;
+  // Adds what the colloidal laws say of the pairs from `begin` to `end` at their guesses; no more than law_pairs of them.
+  enum class Laws { All, Concave, NotConcave };
+  void add_laws(std::size_t begin, std::size_t end, Laws, std::span<double> force, std::span<double> stiffness) const;
+  void add_laws(std::size_t begin, std::size_t end, std::span<forces::PairTerm>) const;
+  static constexpr std::size_t law_pairs = 64;
   void follow_flow(const std::vector<double>& solution);
   void follow_path(int chunk, const std::vector<double>& solution, GapCheck&);
   forces::PairTerm substrate_term(const forces::PairGeometry&) const;
@@ -144,8 +155,8 @@ class StepAssembly {
   const std::vector<std::int32_t>& order_;
   const std::vector<neighbours::IndexPair>& pairs_;
   solve::PairTopology topology_;
-  std::vector<double> radius_, mass_;      // engine order
-  std::vector<forces::PairGeometry> geometry_;            // one a pair; gap holds the guess
+  std::vector<double> radius_, mass_, potential_;  // engine order
+  std::vector<double> guess_;                      // gap at the step's end, one a pair
   std::vector<forces::PairGeometry> substrate_geometry_;  // one a particle
 
   // of the current step
@@ -167,7 +178,7 @@ class StepAssembly {
   // What the motion of the step starts from (TwoStep::from): gap and separation; and the gap whose logarithm the squeeze starts from.
   // But in a two-step method all are those of the beginning.
   bool two_step_ = false;
-  std::vector<double> gap_from_, squeeze_from_;      // one a pair
+  std::vector<double> squeeze_from_;                      // one a pair, two-step only
   std::vector<double> height_begin_, wall_squeeze_from_;  // one a particle, two-step only: its centre at the beginning
   SurfaceSearch search_;                   // of a pressure-limited surface
   double surface_end_ = 0;                 // height at the step's end, um
@@ -184,13 +195,19 @@ class StepAssembly {
   // What the averages along the step start from.
   std::vector<Vec3> separation_;                             // one a pair, from i to j
   std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;
-  mutable std::vector<std::vector<forces::PairTerm>> term_;  // one array a chunk
   // What each particle is to the surface: free (0), held exactly (`held`), or lifted on the spring by so much, um; and how it
   // came out, with the force of those held, pN.
   static constexpr double held = 1e-12;
   std::vector<double> protrusion_guess_, protrusion_end_, holding_force_;
-  mutable std::vector<std::vector<double>> force_, stiffness_;  // one array a chunk
-  mutable std::vector<resistance::PairScalars> scalars_;        // at resistance_gap_, one a pair
+  mutable std::vector<double> mean_force_;  // along the path, one a pair
+  // At resistance_gap_: the squeeze of every pair, and the other scalars of the few that are near enough to have them, rising in p. One
+  // array a chunk.
+  mutable std::vector<double> squeeze_;
+  struct NearScalars {
+    std::int32_t pair = 0;
+    resistance::PairScalars scalars;
+  };
+  std::vector<std::vector<NearScalars>> near_;
   // One a particle, where they stay what they are all through a step; else empty.
   std::vector<resistance::BoundaryScalars> wall_, surface_;
 };
