@@ -116,6 +116,12 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       resistance_height_[k] = a + substrate_geometry_[k].gap;
     }
   }
+  std::vector<TwoStepPoint> points(two_step_ ? n : 0);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::int32_t i = order_[k];
+    points[k] = {position[i], two_step->before[i], two_step->predicted[i]};
+  }
   if (rough_) rough_->begin(position_, laws_);
   if (flow_) {
     const double height = two_step_ ? film.height_end : film.height_begin;
@@ -133,7 +139,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
       const auto [i, j] = pairs_[p];
       if (two_step_) {
-        begin_two_step(c, p, position, *two_step);
+        begin_two_step(c, p, points[i], points[j], two_step->share);
         continue;
       }
       const Vec3 d = cell_.minimum_image(position_[j] - position_[i]);
@@ -186,15 +192,13 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       substrate_geometry_[k].gap = gap_alone(substrate_step_force(static_cast<int>(k)), substrate_geometry_[k]);
 }
 
-void StepAssembly::begin_two_step(int chunk, std::size_t p, const Vec3Array& position, const TwoStep& two_step) {
+void StepAssembly::begin_two_step(int chunk, std::size_t p, const TwoStepPoint& a, const TwoStepPoint& b, double share) {
   const auto [i, j] = pairs_[p];
-  const std::int32_t fi = order_[i], fj = order_[j];
   const double contact = radius_[i] + radius_[j];
   // One image throughout: a pair whose nearest image changes within two steps is nowhere near.
-  const Vec3 now = position[fj] - position[fi], image = cell_.minimum_image(now) - now;
-  const auto separation = [&](const Vec3Array& x) -> Vec3 { return x[fj] - x[fi] + image; };
-  const Vec3 from = separation(two_step.from), predicted = separation(two_step.predicted);
-  const double r = predicted.norm(), gap = (now + image).norm() - contact, gap_before = separation(two_step.before).norm() - contact;
+  const Vec3 now = b.now - a.now, image = cell_.minimum_image(now) - now;
+  const Vec3 from = position_[j] - position_[i] + image, predicted = b.predicted - a.predicted + image;
+  const double r = predicted.norm(), gap = (now + image).norm() - contact, gap_before = (b.before - a.before + image).norm() - contact;
   separation_[p] = from;
   normal_[p] = predicted / r;
   gap_begin_[p] = gap;
@@ -205,7 +209,7 @@ void StepAssembly::begin_two_step(int chunk, std::size_t p, const Vec3Array& pos
   squeeze_from_[p] = guess;
   if (!interactions_.lubrication()) return;
   set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess));
-  if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(two_step.share * std::log(gap / gap_before)) : 0;
+  if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(share * std::log(gap / gap_before)) : 0;
 }
 
 void StepAssembly::set_scalars(int chunk, std::size_t p, const resistance::PairScalars& scalars) {
@@ -241,8 +245,10 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
   double force[law_pairs], stiffness[law_pairs];
   solve::FullPairs& full = system.full[chunk];
   solve::SqueezePairs& squeeze = system.squeeze[chunk];
-  full.clear();
-  squeeze.clear();
+  const auto resisting = static_cast<std::size_t>(std::count_if(squeeze_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                                squeeze_.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0; }));
+  full.restart(near_[chunk].size());
+  squeeze.restart(resisting - std::min(resisting, near_[chunk].size()));
   const double mu = liquid_.viscosity;
   auto near = near_[chunk].begin();
   for (std::size_t p = begin; p < end; ++p) {

@@ -138,7 +138,10 @@ class StepAssembly {
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
-  void begin_two_step(int chunk, std::size_t pair, const Vec3Array& position, const TwoStep&);
+  struct TwoStepPoint {
+    Vec3 now, before, predicted;
+  };
+  void begin_two_step(int chunk, std::size_t pair, const TwoStepPoint&, const TwoStepPoint&, double share);
   void path_forces(std::size_t begin, std::size_t end, std::span<double> force, std::span<double> stiffness) const;
   // Adds what the colloidal laws say of the pairs from `begin` to `end` at their guesses; no more than law_pairs of them.
   enum class Laws { All, Concave, NotConcave };

@@ -40,7 +40,12 @@ class PairBlocks {
     blocks_.clear();
     count_ = 0;
   }
-  void reserve(std::size_t pairs) { blocks_.reserve((pairs + lanes - 1) / lanes); }
+  // Empty, with room for about so many: vectors that grow by themselves would keep up to twice what they need.
+  void restart(std::size_t expected) {
+    clear();
+    const std::size_t blocks = (expected + lanes - 1) / lanes;
+    if (blocks > blocks_.capacity()) blocks_.reserve(blocks + blocks / 16 + 1);
+  }
   void push_back(const Pair& p) {
     const std::size_t lane = count_ % lanes;
     if (lane == 0) {
