@@ -87,33 +87,48 @@ double update_narrow(const double* f, int begin, int end, double alpha, const do
 
 template <int D>
 BlockJacobi<D>::BlockJacobi(const PairSystem& system) {
-  const std::vector<double> blocks = diagonal_blocks(system);
-  const std::size_t n = system.topology->particles(), groups = (n + lanes - 1) / lanes;
-  factor_.resize(groups * lanes * entries);
-#pragma omp parallel for schedule(static)
-  for (std::size_t g = 0; g < groups; ++g) {
-    Lanes l[entries];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const std::size_t k = g * lanes + lane;
-      for (int r = 0; r < D; ++r)
-        for (int c = 0; c <= r; ++c) l[at(r, c)][lane] = k < n ? blocks[k * entries + at(r, c)] : r == c;
-      if (k < n && !system.held.empty() && system.held[k]) {
-        for (int d = 0; d < D; ++d) l[d < 2 ? at(2, d) : at(d, 2)][lane] = 0;
-        l[at(2, 2)][lane] = 1;
-      }
+  const PairTopology& topology = *system.topology;
+  const std::size_t n = topology.particles();
+  const int count = topology.chunks().count();
+  // The blocks come into being where their factors will stand: first particle by particle, then four side by side.
+  factor_.resize(topology.first_slot() * entries);
+  std::vector<double> halo(topology.halo_count() * entries);
+#pragma omp parallel
+  {
+#pragma omp for schedule(static)
+    for (int c = 0; c < count; ++c) own_diagonal_blocks<D>(system, c, factor_.data(), halo.data());
+#pragma omp for schedule(static)
+    for (int c = 0; c < count; ++c) {
+      gather_diagonal_blocks<D>(topology, c, halo.data(), factor_.data());
+      for (auto k = static_cast<std::size_t>(topology.chunks().begin[c]); k < static_cast<std::size_t>(topology.chunks().begin[c + 1]); k += lanes)
+        factorize_four(system, k, n, &factor_[k * entries]);
     }
-    for (int r = 0; r < D; ++r)
-      for (int c = 0; c <= r; ++c) {
-        Lanes sum = l[at(r, c)];
-        for (int q = 0; q < c; ++q) sum -= l[at(r, q)] * l[at(c, q)];
-        if (r == c)
-          for (int lane = 0; lane < lanes; ++lane) sum[lane] = 1 / std::sqrt(sum[lane]);
-        else
-          sum *= l[at(c, c)];
-        l[at(r, c)] = sum;
-      }
-    for (int q = 0; q < entries; ++q) store(&factor_[(g * entries + q) * lanes], l[q]);
   }
+}
+
+template <int D>
+void BlockJacobi<D>::factorize_four(const PairSystem& system, std::size_t first, std::size_t n, double* block) {
+  Lanes l[entries];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::size_t k = first + lane;
+    for (int r = 0; r < D; ++r)
+      for (int c = 0; c <= r; ++c) l[at(r, c)][lane] = k < n ? block[lane * entries + at(r, c)] : r == c;
+    if (k < n && !system.held.empty() && system.held[k]) {
+      for (int d = 0; d < D; ++d) l[d < 2 ? at(2, d) : at(d, 2)][lane] = 0;
+      l[at(2, 2)][lane] = 1;
+    }
+  }
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c <= r; ++c) {
+      Lanes sum = l[at(r, c)];
+      for (int q = 0; q < c; ++q) sum -= l[at(r, q)] * l[at(c, q)];
+      if (r == c)
+        for (int lane = 0; lane < lanes; ++lane) sum[lane] = 1 / std::sqrt(sum[lane]);
+      else
+        sum *= l[at(c, c)];
+      l[at(r, c)] = sum;
+    }
+  for (int q = 0; q < entries; ++q) store(block + q * lanes, l[q]);
 }
 
 template <int D>

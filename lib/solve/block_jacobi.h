@@ -20,6 +20,9 @@ class BlockJacobi {
   double update(int begin, int end, double alpha, const double* p, const double* ap, double* x, double* r, double* z) const;
 
  private:
+  // The blocks of four particles, one after the other, become their factors, side by side.
+  static void factorize_four(const PairSystem&, std::size_t first, std::size_t particles, double* block);
+
   std::vector<double> factor_;  // lower triangle row by row, with reciprocal diagonal, of four particles side by side
 };
 

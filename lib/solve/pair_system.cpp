@@ -95,48 +95,72 @@ void add_full_block(const FullPair& p, double l, double sign, double* m) {
   }
 }
 
+}  // namespace
+
+template <int D>
+void own_diagonal_blocks(const PairSystem& system, int c, double* block, double* halo) {
+  const PairTopology& topology = *system.topology;
+  constexpr std::size_t B = D * (D + 1) / 2;
+  // Where what a pair adds to its particle j goes: targets from first_slot() on are the halo's.
+  const auto of_target = [&, first = static_cast<std::int32_t>(topology.first_slot())](std::int32_t target) {
+    return target < first ? block + static_cast<std::size_t>(target) * B : halo + static_cast<std::size_t>(target - first) * B;
+  };
+  for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k) {
+    double* m = block + static_cast<std::size_t>(k) * B;
+    for (int d = 0; d < D; ++d) {
+      double unit[D] = {}, column[D];
+      unit[d] = 1;
+      add_particle<D>(system.particle[k], unit, column);
+      for (int r = d; r < D; ++r) m[at(r, d)] = column[r];
+    }
+  }
+  std::fill(halo + topology.halo_begin(c) * B, halo + topology.halo_begin(c + 1) * B, 0.0);
+  if (!system.own.empty())
+    for (const OwnBlock& own : system.own[c])
+      for (std::size_t q = 0; q < B; ++q) block[static_cast<std::size_t>(own.particle) * B + q] += own.entry[q];
+  for (const SqueezePair& p : system.squeeze[c]) {
+    double *i = block + static_cast<std::size_t>(p.i) * B, *j = of_target(p.target);
+    for (int r = 0; r < 3; ++r)
+      for (int q = 0; q <= r; ++q) {
+        const double value = p.squeeze * p.n[r] * p.n[q];
+        i[at(r, q)] += value;
+        j[at(r, q)] += value;
+      }
+  }
+  for (const FullPair& p : system.full[c]) {
+    add_full_block<D>(p, p.l_i, +1, block + static_cast<std::size_t>(p.i) * B);
+    add_full_block<D>(p, p.l_j, -1, of_target(p.target));
+  }
+}
+
+template <int D>
+void gather_diagonal_blocks(const PairTopology& topology, int c, const double* halo, double* block) {
+  constexpr std::size_t B = D * (D + 1) / 2;
+  for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k)
+    for (const std::int32_t* slot = topology.slots_begin(k); slot != topology.slots_end(k); ++slot)
+      for (std::size_t d = 0; d < B; ++d) block[static_cast<std::size_t>(k) * B + d] += halo[static_cast<std::size_t>(*slot) * B + d];
+}
+
+template void own_diagonal_blocks<3>(const PairSystem&, int, double*, double*);
+template void own_diagonal_blocks<6>(const PairSystem&, int, double*, double*);
+template void gather_diagonal_blocks<3>(const PairTopology&, int, const double*, double*);
+template void gather_diagonal_blocks<6>(const PairTopology&, int, const double*, double*);
+
+namespace {
+
 template <int D>
 std::vector<double> blocks(const PairSystem& system) {
   const PairTopology& topology = *system.topology;
   const int count = topology.chunks().count();
-  constexpr int B = D * (D + 1) / 2;
-  const std::size_t n = topology.particles();
-  const std::size_t halo = topology.first_slot();
-  std::vector<double> block((halo + topology.halo_count()) * B, 0.0);
+  constexpr std::size_t B = D * (D + 1) / 2;
+  std::vector<double> block(topology.particles() * B), halo(topology.halo_count() * B);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) {
-      for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k) {
-        for (int d = 0; d < D; ++d) {
-          double unit[D] = {}, column[D];
-          unit[d] = 1;
-          add_particle<D>(system.particle[k], unit, column);
-          for (int r = d; r < D; ++r) block[k * B + at(r, d)] = column[r];
-        }
-      }
-      if (!system.own.empty())
-        for (const OwnBlock& own : system.own[c])
-          for (int q = 0; q < B; ++q) block[static_cast<std::size_t>(own.particle) * B + q] += own.entry[q];
-      for (const SqueezePair& p : system.squeeze[c])
-        for (int r = 0; r < 3; ++r)
-          for (int q = 0; q <= r; ++q) {
-            const double value = p.squeeze * p.n[r] * p.n[q];
-            block[static_cast<std::size_t>(p.i) * B + at(r, q)] += value;
-            block[static_cast<std::size_t>(p.target) * B + at(r, q)] += value;
-          }
-      for (const FullPair& p : system.full[c]) {
-        add_full_block<D>(p, p.l_i, +1, &block[static_cast<std::size_t>(p.i) * B]);
-        add_full_block<D>(p, p.l_j, -1, &block[static_cast<std::size_t>(p.target) * B]);
-      }
-    }
+    for (int c = 0; c < count; ++c) own_diagonal_blocks<D>(system, c, block.data(), halo.data());
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c)
-      for (int k = topology.chunks().begin[c]; k < topology.chunks().begin[c + 1]; ++k)
-        for (const std::int32_t* slot = topology.slots_begin(k); slot != topology.slots_end(k); ++slot)
-          for (int d = 0; d < B; ++d) block[static_cast<std::size_t>(k) * B + d] += block[(halo + *slot) * B + d];
+    for (int c = 0; c < count; ++c) gather_diagonal_blocks<D>(topology, c, halo.data(), block.data());
   }
-  block.resize(n * B);
   return block;
 }
 

@@ -76,5 +76,11 @@ struct PairSystem {
 void apply(const PairSystem&, const std::vector<double>& x, std::vector<double>& y);
 // Diagonal block of every particle, its lower triangle row by row, D (D + 1)/2 entries a particle; without the mean flow's.
 std::vector<double> diagonal_blocks(const PairSystem&);
+// The same in two steps, chunk by chunk, for D unknowns: what a chunk's terms add to its own particles (from block on, set, then summed)
+// and to those of others (its slots of the halo); and, after all chunks, those slots added to their particles.
+template <int D>
+void own_diagonal_blocks(const PairSystem&, int chunk, double* block, double* halo);
+template <int D>
+void gather_diagonal_blocks(const PairTopology&, int chunk, const double* halo, double* block);
 
 }  // namespace pigment::solve
