@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <numeric>
 
 #include "app/tool.h"
@@ -62,11 +63,11 @@ void run(app::CommandLine& line) {
     throw InputError(fmt::format("--checkpoint-every: {} is not a time; write 0 s or more", options.checkpoint_every));
   config::Document document(options.scene, line.common.set);
   const scene::Scene scene = scene::read_scene(document, "consolidate");
-  const io::ParticleFile packing(options.packing);
+  auto packing = std::make_unique<const io::ParticleFile>(options.packing);
   io::Provenance provenance{"pigment-consolidate", document.resolved(scene::stage("consolidate").reads), {}};
   provenance.inputs["packing"] = io::sha256_of_file(options.packing);
 
-  stepping::Problem problem = scene::problem_of(scene, packing);
+  stepping::Problem problem = scene::problem_of(scene, *packing);
   if (!options.dewatering.empty()) {
     problem.dewatering = dewatering::read_curve(options.dewatering);
     provenance.inputs["dewatering"] = io::sha256_of_file(options.dewatering);
@@ -86,18 +87,18 @@ void run(app::CommandLine& line) {
   inputs["version"] = version;
   if (options.restart) io::set_checkpoint_aside(line.common.output);
   stepping::RunState state;
-  const Layer first = packing.layer(0);
+  Layer first = packing->layer(0);
   if (const auto checkpoint = io::read_checkpoint(line.common.output, inputs)) {
     state = stepping::RunState::from(checkpoint->arrays, checkpoint->integers);
     note(fmt::format("going on from the checkpoint at t = {:.6g} s", state.time * 1e-3));
   } else {
     state = stepping::initial_state(problem, first.position);
   }
-  Layer fixed = first;
-  fixed.particles = problem.particles;
-  fixed.substrate = problem.interactions.height_field;
-  io::TrajectoryWriter writer(line.common.output, fixed, packing.species_names(), observables(problem.interactions), provenance,
+  first.particles = problem.particles;
+  first.substrate = problem.interactions.height_field;
+  io::TrajectoryWriter writer(line.common.output, std::move(first), packing->species_names(), observables(problem.interactions), provenance,
                               static_cast<std::size_t>(state.frame));
+  packing.reset();  // its particles are the problem's
   app::handle_signals();
 
   Progress progress("consolidate");

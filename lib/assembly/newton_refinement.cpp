@@ -100,7 +100,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         const StepForce force = pair_step_force(c, p);
         double next = next_gap(gap, guess, force.tangent(gap), force);
         if (split_ && guess < bond_reach) next = std::min(next, bond_rise * guess);
-        guess = bracket_[p].take(next, guess);
+        guess = bracket_[c][p].take(next, guess);
       }
     }
     const bool pairs_refine = std::exchange(check.refine, false);
@@ -111,7 +111,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         rough_->refine(k, laws_, liquid_.viscosity, dt_, end, newton_, check.refine, check.crossed);
       } else if (interactions_.substrate && !path_) {
         const double gap = z - a, begin = (two_step_ ? height_begin_[k] : position_[k].z()) - a;
-        double& guess = substrate_geometry_[k].gap;
+        double& guess = wall_guess_[k];
         if (interactions_.lubrication() && begin > 0) {
           if (gap <= 0) check.crossed = true;
           if (newton_ && off_guess(gap, guess, two_step_ || split_ || guess != begin)) {

@@ -1,12 +1,18 @@
 // What acts between one particle and the liquid, the substrate and the free surface in a step.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "assembly/step_assembly.h"
 #include "forces/surface_spring.h"
 #include "resistance/scene_resistance.h"
 
 namespace pigment::assembly {
+
+forces::PairGeometry StepAssembly::wall_geometry(int k) const {
+  return {wall_guess_[k], radius_[k], std::numeric_limits<double>::infinity(), potential_[k],
+          interactions_.substrate->surface_potential.value_or(potential_[k])};
+}
 
 resistance::BoundaryScalars StepAssembly::wall_scalars(int k) const {
   return wall_.empty() ? resistance::wall_term(interactions_.hydrodynamics, radius_[k], resistance_height_[k] - radius_[k]) : wall_[k];
@@ -28,7 +34,7 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
   const double a = radius_[k], gap = resistance::hydrodynamic_gap(position_[k].z() - a, a);
   const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
   resistance::SqueezeStep s{wall_scalars(k).perpendicular, 0};
-  const double guess = substrate_geometry_[k].gap;
+  const double guess = wall_guess_[k];
   if (two_step_) {
     if (wall_squeeze_from_[k] > 0 && guess > 0) {
       const double c = resistance::squeeze_constant(a), from = position_[k].z() - a;
@@ -48,7 +54,7 @@ resistance::SqueezeStep StepAssembly::wall_squeeze(int k) const {
 StepForce StepAssembly::substrate_step_force(int k) const {
   const double a = radius_[k], begin = position_[k].z() - a;
   static const std::vector<std::unique_ptr<forces::PreparedPairLaw>> none;
-  StepForce f{interactions_.substrate->colloidal ? laws_ : none, substrate_geometry_[k], begin, two_step_ ? wall_squeeze_from_[k] : begin};
+  StepForce f{interactions_.substrate->colloidal ? laws_ : none, wall_geometry(k), begin, two_step_ ? wall_squeeze_from_[k] : begin};
   const double at = resistance::hydrodynamic_gap(resistance_height_[k] - a, a);
   f.singular = liquid_.viscosity * resistance::squeeze_constant(a) / dt_;
   f.split = split_;
@@ -63,13 +69,13 @@ StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
   if (interactions_.substrate->colloidal)
     for (const auto& law : laws_) {
       if (split_ && law->concave()) continue;
-      const forces::PairTerm t = law->switched(substrate_geometry_[k]);
+      const forces::PairTerm t = law->switched(wall_geometry(k));
       s.force += t.force;
       s.stiffness += t.stiffness;
     }
   // The plane stops particles whatever the forces.
-  if (substrate_geometry_[k].gap < 0) {
-    s.force -= forces::contact_stiffness * substrate_geometry_[k].gap;
+  if (wall_guess_[k] < 0) {
+    s.force -= forces::contact_stiffness * wall_guess_[k];
     s.stiffness += forces::contact_stiffness;
   }
   return s;
@@ -119,7 +125,7 @@ void StepAssembly::particle_terms(int chunk, solve::PairSystem& system, double* 
       }
       const SubstrateState s = substrate_state(k);
       const double stiffness = std::max(s.stiffness, 0.0);
-      f[2] += s.force + (implicit_ ? stiffness * (substrate_geometry_[k].gap - s.gap_begin) : 0);
+      f[2] += s.force + (implicit_ ? stiffness * (wall_guess_[k] - s.gap_begin) : 0);
       if (!resistance_only_) t.along += dt * stiffness;
     }
     if (interactions_.free_surface) {
@@ -181,7 +187,7 @@ BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u)
     } else if (interactions_.substrate) {
       const SubstrateState s = substrate_state(k);
       const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
-      total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - substrate_geometry_[k].gap);
+      total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - wall_guess_[k]);
       const bool uniform = interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform;
       if (interactions_.lubrication()) {
         const resistance::SqueezeStep squeeze = wall_squeeze(k);

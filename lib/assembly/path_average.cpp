@@ -67,7 +67,7 @@ void StepAssembly::begin_path() {
   separation_.resize(pairs_.size());
   term_begin_.resize(pairs_.size());
   mean_force_.resize(pairs_.size());
-  substrate_term_begin_.resize(substrate_geometry_.size());
+  substrate_term_begin_.resize(wall_guess_.size());
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     const std::size_t begin = topology_.pair_begin(c), end = topology_.pair_begin(c + 1);
@@ -82,7 +82,7 @@ void StepAssembly::begin_path() {
     }
     if (interactions_.substrate)
       for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k)
-        substrate_term_begin_[k] = substrate_term(substrate_geometry_[k]);
+        substrate_term_begin_[k] = substrate_term(wall_geometry(k));
   }
 }
 
@@ -105,13 +105,13 @@ void StepAssembly::path_forces(std::size_t begin, std::size_t end, std::span<dou
 }
 
 StepAssembly::SubstrateState StepAssembly::path_substrate_state(int k) const {
-  const double begin = position_[k].z() - radius_[k], guess = substrate_geometry_[k].gap;
+  const double begin = position_[k].z() - radius_[k], guess = wall_guess_[k];
   const forces::PairTerm& first = substrate_term_begin_[k];
   if (!path_force_) {
     const double stiffness = implicit_ ? std::max(first.stiffness, 0.0) : 0;
     return {begin, first.force - stiffness * (guess - begin), stiffness};
   }
-  const MeanForce mean = mean_force(first, passes_ == 0 ? first : substrate_term(substrate_geometry_[k]), begin, guess);
+  const MeanForce mean = mean_force(first, passes_ == 0 ? first : substrate_term(wall_geometry(k)), begin, guess);
   return {begin, mean.force, mean.stiffness};
 }
 
@@ -149,7 +149,7 @@ void StepAssembly::follow_path(int chunk, const std::vector<double>& u, GapCheck
     const double z = position_[k].z() + dt_ * u[k * D + 2];
     double end = z - a;
     if (interactions_.substrate) {
-      double& guess = substrate_geometry_[k].gap;
+      double& guess = wall_guess_[k];
       if (lubrication) {
         judge(end, guess, begin);
         end = guess = next_guess(end, guess, begin > 0);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "assembly/gap_guess.h"
@@ -126,6 +127,7 @@ class StepAssembly {
   // What a step of the pair moves from: its gap then, and the gap whose logarithm its squeeze starts from (TwoStep::from).
   double gap_from(std::size_t p) const;
   double squeeze_from(std::size_t p) const { return two_step_ ? squeeze_from_[p] : gap_begin_[p]; }
+  forces::PairGeometry wall_geometry(int k) const;  // at the guess
   void set_scalars(int chunk, std::size_t p, const resistance::PairScalars&);
   StepForce pair_step_force(int chunk, std::size_t p) const;
   StepForce substrate_step_force(int k) const;
@@ -160,7 +162,7 @@ class StepAssembly {
   solve::PairTopology topology_;
   std::vector<double> radius_, mass_, potential_;  // engine order
   std::vector<double> guess_;                      // gap at the step's end, one a pair
-  std::vector<forces::PairGeometry> substrate_geometry_;  // one a particle
+  std::vector<double> wall_guess_;                 // gap to the plane at the step's end, one a particle
 
   // of the current step
   Film film_;
@@ -191,7 +193,7 @@ class StepAssembly {
   std::vector<double> random_force_;
   bool path_ = false, path_resistance_ = false, path_force_ = false, resistance_only_ = false;
   int passes_ = 0;  // solutions judged in this step
-  std::vector<GapBracket> bracket_;  // one a pair
+  std::vector<std::unordered_map<std::size_t, GapBracket>> bracket_;  // of the pairs that have one, chunk by chunk
   // What each pair's gap gains as its axis turns in the step, (transverse motion)^2/2r, um: no part of the linear system, it is taken from
   // the last solution. Left out, a bond that turns by 5 degrees would be held 1 nm from where its force is right.
   std::vector<double> turn_;

@@ -22,14 +22,14 @@ class BackwardDifferentiation final : public Integrator {
     // Mean velocities belong to the middles of their steps.
     const double ahead = state.previous_step > 0 ? std::min((dt + state.last_step) / (state.last_step + state.previous_step), furthest) : 0;
     const std::size_t n = state.position.size();
-    Vec3Array before(n), from(n), predicted(n), expected(n);
+    Vec3Array before(n), from(n), predicted(n);
 #pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3& u = state.velocity[k];
-      expected[k] = u + ahead * (u - state.previous_velocity[k]);
+      const Vec3 expected = u + ahead * (u - state.previous_velocity[k]);
       before[k] = state.position[k] - state.last_step * u;
       from[k] = state.position[k] + share * state.last_step * u;
-      predicted[k] = state.position[k] + dt * expected[k];
+      predicted[k] = state.position[k] + dt * expected;
     }
     Vec3Array first(n), spin(n);
 #pragma omp parallel for schedule(static)

@@ -67,6 +67,9 @@ void StepContext::make_list(const Vec3Array& reference, const Liquid& liquid) {
   }
   // A wider skin lists more pairs and lasts longer. Without noise steps are so long that a narrow one is spent in one or two.
   range.skin = std::max(0.02, (problem_.interactions.brownian ? 0.4 : 0.8) * smallest);
+  // First without the old ones: both together would be what takes most room in a run.
+  assembly_.reset();
+  list_ = {};
   list_ = neighbours::make_neighbour_list(problem_.cell, reference, problem_.particles.radius, range);
   assembly_ = std::make_unique<assembly::StepAssembly>(problem_.interactions, problem_.particles, problem_.cell, list_);
   id_.resize(list_.order.size());

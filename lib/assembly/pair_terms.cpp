@@ -1,0 +1,171 @@
+// What acts between two particles in a step.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "assembly/step_assembly.h"
+#include "resistance/scene_resistance.h"
+
+namespace pigment::assembly {
+
+void StepAssembly::begin_two_step(int chunk, std::size_t p, const TwoStepPoint& a, const TwoStepPoint& b, double share) {
+  const auto [i, j] = pairs_[p];
+  const double contact = radius_[i] + radius_[j];
+  // One image throughout: a pair whose nearest image changes within two steps is nowhere near.
+  const Vec3 now = b.now - a.now, image = cell_.minimum_image(now) - now;
+  const Vec3 from = position_[j] - position_[i] + image, predicted = b.predicted - a.predicted + image;
+  const double r = predicted.norm(), gap = (now + image).norm() - contact, gap_before = (b.before - a.before + image).norm() - contact;
+  separation_[p] = from;
+  normal_[p] = predicted / r;
+  gap_begin_[p] = gap;
+  turn_[p] = normal_[p].dot(from) - from.norm();
+  double guess = r - contact;
+  if (gap > 0) guess = std::max(guess, largest_fall * gap);
+  guess_[p] = resistance_gap_[p] = guess;
+  squeeze_from_[p] = guess;
+  if (!interactions_.lubrication()) return;
+  set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess));
+  if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(share * std::log(gap / gap_before)) : 0;
+}
+
+void StepAssembly::set_scalars(int chunk, std::size_t p, const resistance::PairScalars& scalars) {
+  squeeze_[p] = scalars.squeeze;
+  if (scalars.shear > 0) near_[chunk].push_back({static_cast<std::int32_t>(p), scalars});
+}
+
+forces::PairGeometry StepAssembly::geometry(std::size_t p) const {
+  const auto [i, j] = pairs_[p];
+  return {guess_[p], radius_[i], radius_[j], potential_[i], potential_[j]};
+}
+
+double StepAssembly::gap_from(std::size_t p) const {
+  return two_step_ ? separation_[p].norm() - (radius_[pairs_[p].i] + radius_[pairs_[p].j]) : gap_begin_[p];
+}
+
+void StepAssembly::add_laws(std::size_t begin, std::size_t end, Laws which, std::span<double> force, std::span<double> stiffness) const {
+  forces::PairGeometry at[law_pairs];
+  for (std::size_t p = begin; p < end; ++p) at[p - begin] = geometry(p);
+  for (const auto& law : laws_)
+    if (which == Laws::All || law->concave() == (which == Laws::Concave)) law->add(std::span(at, end - begin), force, stiffness);
+}
+
+void StepAssembly::add_laws(std::size_t begin, std::size_t end, std::span<forces::PairTerm> sum) const {
+  forces::PairGeometry at[law_pairs];
+  for (std::size_t p = begin; p < end; ++p) at[p - begin] = geometry(p);
+  for (const auto& law : laws_) law->add(std::span(at, end - begin), sum);
+}
+
+void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs) const {
+  const int D = system.unknowns_per_particle();
+  const std::size_t begin = topology_.pair_begin(chunk), end = topology_.pair_begin(chunk + 1);
+  double force[law_pairs], stiffness[law_pairs];
+  solve::FullPairs& full = system.full[chunk];
+  solve::SqueezePairs& squeeze = system.squeeze[chunk];
+  const auto resisting = static_cast<std::size_t>(std::count_if(squeeze_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                                squeeze_.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0; }));
+  full.restart(near_[chunk].size());
+  squeeze.restart(resisting - std::min(resisting, near_[chunk].size()));
+  const double mu = liquid_.viscosity;
+  auto near = near_[chunk].begin();
+  for (std::size_t p = begin; p < end; ++p) {
+    const std::size_t at_hand = (p - begin) % law_pairs;
+    if (at_hand == 0) {
+      const std::size_t last = std::min(p + law_pairs, end), count = last - p;
+      if (split_) std::copy_n(standing_force_[chunk].begin() + static_cast<std::ptrdiff_t>(p - begin), count, force);
+      else std::fill_n(force, count, 0.0);
+      std::fill_n(stiffness, count, 0.0);
+      if (!path_) add_laws(p, last, split_ ? Laws::NotConcave : Laws::All, std::span(force, count), std::span(stiffness, count));
+      else if (!resistance_only_) path_forces(p, last, std::span(force, count), std::span(stiffness, count));
+      if (path_) std::copy_n(force, count, mean_force_.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+    const auto [i, j] = pairs_[p];
+    const Vec3& n = normal_[p];
+    const double k = implicit_ ? std::max(stiffness[at_hand], 0.0) : 0, guess = guess_[p], turn = newton_ ? turn_[p] : 0, from = gap_from(p);
+    double f = force[at_hand] + (path_ && !path_force_ ? 0 : k * (guess - from - turn));
+    const std::int32_t target = topology_.target(p);
+    const double at = resistance_gap_[p];
+    resistance::PairScalars s{squeeze_[p]};
+    const bool listed = near != near_[chunk].end() && near->pair == static_cast<std::int32_t>(p);
+    if (listed) s = (near++)->scalars;
+    if (path_resistance_ && passes_ > 0 && interactions_.lubrication()) {
+      s = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);
+      squeeze_[p] = s.squeeze;
+    }
+    const double reduced_radius = radius_[i] * radius_[j] / (radius_[i] + radius_[j]);
+    double viscous = s.squeeze;
+    if (two_step_) {
+      if (viscous > 0 && squeeze_from_[p] > 0 && guess > 0) {
+        const double c = resistance::squeeze_constant(reduced_radius), weight = squeeze_weight(p);
+        viscous += weight * c * (1 / guess - 1 / at);
+        f += mu * weight * c * (std::log(squeeze_from_[p] / guess) + (guess - from - turn) / guess) / dt_;
+      }
+    } else if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
+      const double weight = squeeze_weight(p);
+      const resistance::SqueezeStep step = resistance::squeeze_step(reduced_radius, gap_begin_[p], guess, at);
+      viscous += weight * step.coefficient;
+      f += mu * weight * (step.impulse - resistance::squeeze_constant(reduced_radius) * turn / guess) / dt_;
+    }
+    if (f != 0)
+      for (int d = 0; d < 3; ++d) {
+        rhs[static_cast<std::size_t>(i) * D + d] -= f * n[d];
+        rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
+      }
+    const double total = mu * viscous + dt_ * k;
+    if (split_ || two_step_) memory_[p] = total > 0 ? mu * viscous / total : 1;
+    if (s.shear > 0) {
+      const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);
+      full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * at, radius_[j] + 0.5 * at,
+                      total, mu * o.twist, mu * o.a, mu * o.b, mu * o.c});
+    } else if (total > 0) {
+      squeeze.push_back({i, j, target, {n[0], n[1], n[2]}, total});
+    }
+  }
+}
+
+StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
+  const forces::PairGeometry g = geometry(p);
+  StepForce f{laws_, g, gap_from(p), squeeze_from(p)};
+  f.turn = turn_[p];
+  f.split = split_;
+  if (split_) f.standing = standing_force_[chunk][p - topology_.pair_begin(chunk)];
+  if (!(f.squeeze_from > 0)) {
+    f.squeeze_from = g.gap;
+  } else if (squeeze_[p] > 0) {
+    const double singular = liquid_.viscosity * squeeze_weight(p) * resistance::squeeze_constant(g.reduced_radius()) / dt_;
+    f.singular = singular;
+    f.linear = liquid_.viscosity * squeeze_[p] / dt_ - singular / resistance_gap_[p];
+  }
+  return f;
+}
+
+// Where the pair would come to if it were alone.
+double StepAssembly::gap_alone(StepForce force, const forces::PairGeometry& pair) const {
+  force.linear += 6 * std::numbers::pi * liquid_.viscosity * pair.reduced_radius() / dt_;  // Stokes' drag on both
+  const double begin = force.gap_begin;
+  const bool inwards = force(begin) < 0;
+  constexpr double least = 5e-5;  // um; no Born wall lets anything so near
+  double from = begin, to = begin;
+  for (int k = 0; k < 40 && to > least; ++k) {
+    from = to;
+    to *= inwards ? 0.7 : 1.4;
+    if ((force(to) < 0) != inwards) break;
+  }
+  for (int k = 0; k < 6; ++k) {
+    const double middle = std::sqrt(from * to);
+    ((force(middle) < 0) == inwards ? from : to) = middle;
+  }
+  return std::sqrt(from * to);
+}
+
+double StepAssembly::squeeze_weight(std::size_t p) const {
+  return resistance::taper(resistance_gap_[p] / std::min(radius_[pairs_[p].i], radius_[pairs_[p].j]), interactions_.hydrodynamics.taper.squeeze_begin,
+                           interactions_.hydrodynamics.taper.squeeze_end);
+}
+
+double StepAssembly::pair_force(std::size_t p) const {
+  double force = 0;
+  for (const auto& law : laws_) force += law->switched(geometry(p)).force;
+  return force;
+}
+
+}  // namespace pigment::assembly
