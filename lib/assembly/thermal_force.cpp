@@ -5,16 +5,38 @@
 
 namespace pigment::assembly {
 
+namespace {
+
+// The l-th halving on the way from a step to this part of it: its counter, and whether the part lies in the second half.
+struct Halving {
+  std::uint64_t counter;
+  bool second;
+};
+Halving halving(const NoiseInterval& interval, int l) {
+  const std::uint64_t node = (std::uint64_t{1} << l) + (interval.part >> (interval.level - l));
+  return {static_cast<std::uint64_t>(interval.step) | (node << 42), ((interval.part >> (interval.level - 1 - l)) & 1) != 0};
+}
+
+}  // namespace
+
+// Half an interval's increment is half of the whole one, plus for the first and minus for the second half something independent
+// of equal variance ([levy1940]): per root of the length, (x +- y)/sqrt 2.
 std::array<double, 4> path_normals(RandomKey key, const NoiseInterval& interval, std::uint64_t b, std::uint64_t c) {
-  const auto step = static_cast<std::uint64_t>(interval.step);
-  std::array<double, 4> x = random_normals(key, step, b, c);
-  // Half an interval's increment is half of the whole one, plus for the first and minus for the second half something
-  // independent of equal variance ([levy1940]): per root of the length, (x +- y)/sqrt 2.
+  std::array<double, 4> x = random_normals(key, static_cast<std::uint64_t>(interval.step), b, c);
   for (int l = 0; l < interval.level; ++l) {
-    const std::uint64_t node = (std::uint64_t{1} << l) + (interval.part >> (interval.level - l));
-    const bool second = (interval.part >> (interval.level - 1 - l)) & 1;
-    const std::array<double, 4> y = random_normals(key, step | (node << 42), b, c);
+    const auto [counter, second] = halving(interval, l);
+    const std::array<double, 4> y = random_normals(key, counter, b, c);
     for (int k = 0; k < 4; ++k) x[k] = (second ? x[k] - y[k] : x[k] + y[k]) * std::sqrt(0.5);
+  }
+  return x;
+}
+
+double path_normal(RandomKey key, const NoiseInterval& interval, std::uint64_t b, std::uint64_t c) {
+  double x = random_normal(key, static_cast<std::uint64_t>(interval.step), b, c);
+  for (int l = 0; l < interval.level; ++l) {
+    const auto [counter, second] = halving(interval, l);
+    const double y = random_normal(key, counter, b, c);
+    x = (second ? x - y : x + y) * std::sqrt(0.5);
   }
   return x;
 }
@@ -88,6 +110,7 @@ namespace {
 struct PairNormals {
   RandomKey near, shear;
   NoiseInterval interval;
+  double squeeze(std::uint64_t low, std::uint64_t high) const { return path_normal(near, interval, low, high); }
   std::array<double, 4> first(std::uint64_t low, std::uint64_t high) const { return path_normals(near, interval, low, high); }
   std::array<double, 4> second(std::uint64_t low, std::uint64_t high) const { return path_normals(shear, interval, low, high); }
 };
@@ -119,7 +142,7 @@ std::vector<double> thermal_force(const solve::PairSystem& system, const std::ve
       }
       for (const solve::SqueezePair& p : system.squeeze[c]) {
         const auto [low, high] = std::minmax({static_cast<std::uint64_t>(id[p.i]), static_cast<std::uint64_t>(id[p.j])});
-        const double f = std::sqrt(p.squeeze) * pair.first(low, high)[0];
+        const double f = std::sqrt(p.squeeze) * pair.squeeze(low, high);
         for (int d = 0; d < 3; ++d) {
           sum[static_cast<std::size_t>(p.i) * D + d] += f * p.n[d];
           sum[static_cast<std::size_t>(p.target) * D + d] -= f * p.n[d];
@@ -146,7 +169,7 @@ std::vector<double> thermal_force(const solve::PairSystem& system, const std::ve
 #pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t at = flow.begin[k]; at < flow.begin[k + 1]; ++at)
-        normal[at] = path_normals(key, interval, static_cast<std::uint64_t>(id[k]), static_cast<std::uint64_t>(flow.share[at].slice))[0];
+        normal[at] = path_normal(key, interval, static_cast<std::uint64_t>(id[k]), static_cast<std::uint64_t>(flow.share[at].slice));
     add_flow_modes(flow, D, normal, sum.data());
   }
   for (double& f : sum) f *= strength;

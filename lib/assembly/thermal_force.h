@@ -21,8 +21,9 @@ struct NoiseInterval {
   std::uint64_t part = 0;
 };
 
-// Four standard normals for this interval and the counters (b, c).
+// Four standard normals for this interval and the counters (b, c); and the first of them alone.
 std::array<double, 4> path_normals(RandomKey, const NoiseInterval&, std::uint64_t b, std::uint64_t c);
+double path_normal(RandomKey, const NoiseInterval&, std::uint64_t b, std::uint64_t c);
 
 // resistance: R alone, no stiffness. id: of every particle, in the system's order. strength: sqrt(2 kT/dt), dt the length of
 // the interval. Returns forces and, with rotation, torques, D a particle, in the system's order (pN, pN um).

@@ -30,4 +30,9 @@ std::array<double, 4> random_normals(RandomKey key, std::uint64_t a, std::uint64
   return {r0 * std::cos(t0), r0 * std::sin(t0), r1 * std::cos(t1), r1 * std::sin(t1)};
 }
 
+double random_normal(RandomKey key, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  const auto u = random_uniforms(key, a, b, c);
+  return std::sqrt(-2 * std::log(u[0])) * std::cos(2 * std::numbers::pi * u[1]);
+}
+
 }  // namespace pigment

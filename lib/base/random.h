@@ -32,5 +32,7 @@ std::array<std::uint64_t, 4> random_words(RandomKey, std::uint64_t a, std::uint6
 std::array<double, 4> random_uniforms(RandomKey, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0);
 // Four standard normals (Box-Muller on the above).
 std::array<double, 4> random_normals(RandomKey, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0);
+// The first of them.
+double random_normal(RandomKey, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0);
 
 }  // namespace pigment

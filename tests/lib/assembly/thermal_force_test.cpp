@@ -180,6 +180,8 @@ TEST(ThermalForce, PartsOfAStepAreOnePath) {
     for (std::uint64_t part = 0; part < (std::uint64_t{1} << level); ++part)
       for (int k = 0; k < 4; ++k)
         EXPECT_NEAR(increment(level + 1, 2 * part, k) + increment(level + 1, 2 * part + 1, k), increment(level, part, k), 1e-14);
+  // One normal drawn alone is the first of four.
+  for (std::uint64_t part : {0, 5, 31}) EXPECT_EQ(assembly::path_normal(key, {9, 5, part}, 1, 2), assembly::path_normals(key, {9, 5, part}, 1, 2)[0]);
   // and are independent normals: 4 x 1024 of the tenth level, mean square 1 within 4 standard errors (false alarm 6e-5).
   double square = 0, neighbours = 0;
   for (std::uint64_t part = 0; part < 1024; ++part)
