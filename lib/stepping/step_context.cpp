@@ -221,12 +221,16 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     assembly_->set_random_force(
         assembly::thermal_force(system_, id_, problem_.seed, start.noise, std::sqrt(2 * liquid.thermal_energy() / start.step)));
   }
+  // The first pass of a path average only says where half-way is.
+  const bool sketch = treatment == assembly::Treatment::PathAverage;
+  solve::ConjugateGradientOptions rough = options;
+  rough.tolerance = std::min(10 * options.tolerance, 0.1);
   StepSolution s;
   s.velocity = std::move(guess);
   const int most = problem_.interactions.pressure_limited() ? most_with_search : most_refinements;
   for (int pass = 0; pass < most; ++pass) {
     assembly_->build(system_);
-    s.solve = solver_.solve(system_, s.velocity, options);
+    s.solve = solver_.solve(system_, s.velocity, sketch && pass == 0 ? rough : options);
     if (s.solves == 0) options.largest_scale = s.solve.scale;
     s.iterations += s.solve.iterations;
     ++s.solves;

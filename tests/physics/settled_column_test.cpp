@@ -128,10 +128,11 @@ TEST_P(CoarseStep, NoPairPassesUnseen) {
     const Vec3Array before = state.position;
     stepper.advance(state, 0.4);
     double smallest = spacing;
-    // Seven standard deviations of a lone sphere's displacement are its diameter 2.7 times. The noise of a contact that is made or left in
-    // so coarse a step is not Gaussian, and up to 9.4 are met in these six runs; four diameters are far from a thousand.
+    // The noise of a contact that is made or left in so coarse a step is not Gaussian. Of 235 seeds (2.3 million displacements) 80 displacements
+    // were beyond 7 radii, 29 beyond 10, 15 beyond 14, 2 beyond 20 and none beyond 40: a tail that falls as the fourth power of
+    // the size leaves 50 radii to chance in 0.1 % of six runs. Pairs unseen threw each other two thousand.
     for (std::size_t k = 0; k < before.size(); ++k)
-      ASSERT_LT((state.position[k] - before[k]).cwiseAbs().maxCoeff(), 8 * a) << "step " << s << ", particle " << k;
+      ASSERT_LT((state.position[k] - before[k]).cwiseAbs().maxCoeff(), 50 * a) << "step " << s << ", particle " << k;
     for (std::size_t i = 0; i < before.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         smallest = std::min(smallest, problem.cell.minimum_image(state.position[i] - state.position[j]).norm());
