@@ -20,7 +20,8 @@ constexpr double weak_hold = 4;  // pN
 constexpr double linearisation_share = 0.005, linear_range = 0.3;
 
 // Splitting alone: with a gap further off than by its own length those within a tenth of it are put right before the others. And a bond
-// opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about.
+// opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about. Up to where it
+// was at the beginning of the step it opens at once.
 constexpr double focus_share = 0.1;
 constexpr double bond_reach = 1e-3, bond_rise = 1.15;  // um
 
@@ -99,7 +100,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         if (off < focus) continue;
         const StepForce force = pair_step_force(c, p);
         double next = next_gap(gap, guess, force.tangent(gap), force);
-        if (split_ && guess < bond_reach) next = std::min(next, bond_rise * guess);
+        if (split_ && guess < bond_reach) next = std::min(next, std::max(bond_rise * guess, gap_begin_[p]));
         guess = bracket_[c][p].take(next, guess);
       }
     }

@@ -1,33 +1,33 @@
 #pragma once
-// Block-Jacobi conjugate gradients while they are quick, a Cholesky factor kept over several steps where they are not.
+// Conjugate gradients, preconditioned by block Jacobi while that is quick and by the factor of the stiff network where it is not.
 //
-// A solve that block Jacobi does not finish in as many iterations as there are particles (500 at least) is finished with a factor of its
-// own matrix, which then preconditions the solves that follow, until one of them takes more than `refactor` iterations and a new factor is made, or
-// the neighbour list changes and block Jacobi gets another chance. The matrix that the kept factor was made of is part of the
-// state of a run, so that a resumed run goes on with the same factor.
-#include <cstdint>
+// A solve that block Jacobi does not finish in `patience` iterations goes on with a network made of its own matrix. That network serves
+// the solves that follow within the step, whose matrices differ by what Newton's method learnt, and is made anew where it no longer fits.
+// Nothing but whether there was one is carried from step to step.
 #include <vector>
 
-#include "solve/cholmod_factor.h"
 #include "solve/conjugate_gradients.h"
+#include "solve/stiff_network.h"
 
 namespace pigment::solve {
 
 class AdaptiveSolver {
  public:
+  // stiff: whether the last step ended with a network; this one begins with its own then.
+  void begin_step(bool stiff) {
+    network_.forget();
+    stiff_ = stiff;
+    refused_ = false;
+  }
   SolveReport solve(const PairSystem&, std::vector<double>& x, const ConjugateGradientOptions&);
-  void forget_factor();  // the neighbour list changed: the factor's unknowns have another order
-
-  // The factor's matrix, bit for bit; empty without a factor.
-  const std::vector<std::int64_t>& packed_factor() const { return packed_; }
-  long revision() const { return revision_; }  // changes with the factor
-  // Makes the factor anew from such a matrix.
-  void restore_factor(const std::vector<std::int64_t>&, const PairTopology&);
+  bool has_network() const { return network_.ready(); }
 
  private:
-  CholmodFactor factor_;
-  std::vector<std::int64_t> packed_;
-  long revision_ = 0;
+  void make(const PairSystem&);
+
+  StiffNetwork network_;
+  bool stiff_ = false;
+  bool refused_ = false;  // no factor was to be had (memory): block Jacobi does what is left of the step
 };
 
 }  // namespace pigment::solve

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "solve/block_jacobi.h"
 
@@ -27,7 +28,7 @@ double energy_bound(const ParticleTerm& t, const double* r) {
 constexpr double bound_over_tolerance = 30;
 
 template <int D>
-SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const ConjugateGradientOptions& options) {
+SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const ConjugateGradientOptions& options, StiffNetwork* network) {
   constexpr int S = stride<D>;
   const PairTopology& topology = *system.topology;
   const std::size_t n = topology.particles(), size = n * D, padded = input_size<D>(topology);
@@ -45,7 +46,8 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     for (std::size_t k = 0; k < n; ++k)
       if (system.held[k]) x[k * S + 2] = given[k * S + 2] = system.held_velocity[k];
   }
-  const BlockJacobi<D> preconditioner(system);
+  std::optional<BlockJacobi<D>> jacobi;
+  if (!network) jacobi.emplace(system);
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count);
@@ -54,6 +56,18 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   double energy = 0;  // x A x so far; what is missing is e A e
   bool done = false, settled = false;
   const auto begin_of = [&](int c) { return topology.chunks().begin[c]; };
+  // z = M^-1 r by all threads together, each chunk's part of r . z.
+  const auto precondition = [&](std::vector<double>& partial) {
+    if (network) {
+#pragma omp for schedule(static)
+      for (int c = 0; c < count; ++c) network->eliminate(begin_of(c), begin_of(c + 1), r.data());
+#pragma omp single
+      network->solve();
+    }
+#pragma omp for schedule(static)
+    for (int c = 0; c < count; ++c)
+      partial[c] = network ? network->substitute(begin_of(c), begin_of(c + 1), system.held, r.data(), z.data()) : jacobi->solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
+  };
 #pragma omp parallel
   {
     // ap = A x, scale = A given
@@ -81,14 +95,16 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       if (held)
         for (int k = begin_of(c); k < begin_of(c + 1); ++k)
           if (system.held[k]) r[static_cast<std::size_t>(k) * S + 2] = p[static_cast<std::size_t>(k) * S + 2] = 0;
-      partial_bb[c] = preconditioner.solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
       double sum = 0;
       for (std::size_t q = begin; q < end; ++q) sum += (x[q] - (held ? given[q] : 0.0)) * (r[q] + p[q]);
       partial_energy[c] = sum;
-      for (std::size_t q = begin; q < end; ++q) r[q] = p[q];
-      partial_rz[c] = preconditioner.solve(begin_of(c), begin_of(c + 1), r.data(), z.data());
-      for (std::size_t q = begin; q < end; ++q) p[q] = z[q];
     }
+    precondition(partial_bb);
+#pragma omp for schedule(static)
+    for (int c = 0; c < count; ++c) std::copy(p.begin() + begin_of(c) * S, p.begin() + begin_of(c + 1) * S, r.begin() + begin_of(c) * S);
+    precondition(partial_rz);
+#pragma omp for schedule(static)
+    for (int c = 0; c < count; ++c) std::copy(z.begin() + begin_of(c) * S, z.begin() + begin_of(c + 1) * S, p.begin() + begin_of(c) * S);
 #pragma omp single
     {
       bb = std::min(sum_of(partial_bb), options.largest_scale);
@@ -121,9 +137,19 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) partial_pap[c] = finish_chunk<D>(system, c, held, p.data(), ap.data(), sums);
       const double alpha = rz / sum_of(partial_pap);
+      if (network) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c)
-        partial_rz[c] = preconditioner.update(begin_of(c), begin_of(c + 1), alpha, p.data(), ap.data(), x.data(), r.data(), z.data());
+        for (int c = 0; c < count; ++c)
+          for (std::size_t q = static_cast<std::size_t>(begin_of(c)) * S; q < static_cast<std::size_t>(begin_of(c + 1)) * S; ++q) {
+            x[q] += alpha * p[q];
+            r[q] -= alpha * ap[q];
+          }
+        precondition(partial_rz);
+      } else {
+#pragma omp for schedule(static)
+        for (int c = 0; c < count; ++c)
+          partial_rz[c] = jacobi->update(begin_of(c), begin_of(c + 1), alpha, p.data(), ap.data(), x.data(), r.data(), z.data());
+      }
       const double next = sum_of(partial_rz), beta = next / rz;
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c)
@@ -147,71 +173,11 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   return report;
 }
 
-// The residual is judged in the factor's norm. Plain loops: the factor's own solve is what takes the time.
-SolveReport solve_with_factor(const PairSystem& system, std::vector<double>& x, const ConjugateGradientOptions& options,
-                              CholmodFactor& factor) {
-  const std::size_t size = system.right_hand_side.size();
-  const std::size_t n = system.topology->particles(), D = size / n;
-  std::vector<double> r = system.right_hand_side, s = r, z, p, ap;
-  if (x.size() != size) x.assign(size, 0.0);
-  const auto mask = [&](std::vector<double>& v) {
-    if (!system.held.empty())
-      for (std::size_t k = 0; k < n; ++k)
-        if (system.held[k]) v[k * D + 2] = 0;
-  };
-  if (!system.held.empty()) {
-    std::vector<double> given(size, 0.0);
-    for (std::size_t k = 0; k < n; ++k)
-      if (system.held[k]) x[k * D + 2] = given[k * D + 2] = system.held_velocity[k];
-    apply(system, given, ap);
-    for (std::size_t q = 0; q < size; ++q) s[q] -= ap[q];
-    mask(s);
-  }
-  const auto dot = [size](const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t q = 0; q < size; ++q) sum += a[q] * b[q];
-    return sum;
-  };
-  factor.solve(s, z);
-  const double scale = std::min(dot(s, z), options.largest_scale), target = options.tolerance * options.tolerance * scale;
-  apply(system, x, ap);
-  for (std::size_t q = 0; q < size; ++q) r[q] -= ap[q];
-  mask(r);
-  factor.solve(r, z);
-  mask(z);
-  double rz = dot(r, z);
-  p = z;
-  SolveReport report;
-  while (rz > target && report.iterations < options.max_iterations) {
-    apply(system, p, ap);
-    mask(ap);
-    const double alpha = rz / dot(p, ap);
-    for (std::size_t q = 0; q < size; ++q) {
-      x[q] += alpha * p[q];
-      r[q] -= alpha * ap[q];
-    }
-    factor.solve(r, z);
-    mask(z);
-    const double next = dot(r, z), beta = next / rz;
-    for (std::size_t q = 0; q < size; ++q) p[q] = z[q] + beta * p[q];
-    rz = next;
-    ++report.iterations;
-  }
-  report.scale = scale;
-  report.residual = scale > 0 ? std::sqrt(std::max(rz, 0.0) / scale) : 0;
-  report.converged = std::isfinite(rz) && rz <= target;
-  if (!report.converged)
-    report.message = std::isfinite(rz) ? "no convergence in " + std::to_string(report.iterations) + " iterations"
-                                       : "the residual is not a finite number";
-  return report;
-}
-
 }  // namespace
 
 SolveReport conjugate_gradients(const PairSystem& system, std::vector<double>& x, const ConjugateGradientOptions& options,
-                                CholmodFactor* factor) {
-  if (factor && factor->ready()) return solve_with_factor(system, x, options, *factor);
-  return system.rotation ? solve<6>(system, x, options) : solve<3>(system, x, options);
+                                StiffNetwork* network) {
+  return system.rotation ? solve<6>(system, x, options, network) : solve<3>(system, x, options, network);
 }
 
 }  // namespace pigment::solve

@@ -1,11 +1,11 @@
 #pragma once
-// Preconditioned conjugate gradients on a PairSystem; block Jacobi preconditioner, or a factor of a similar matrix. Same bytes
-// at any number of threads.
+// Preconditioned conjugate gradients on a PairSystem; preconditioned by block Jacobi, or by the factor of a stiff network made of
+// the same system or a similar one. Same bytes at any number of threads.
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "solve/cholmod_factor.h"
+#include "solve/stiff_network.h"
 #include "solve/pair_system.h"
 
 namespace pigment::solve {
@@ -13,7 +13,7 @@ namespace pigment::solve {
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
-  double residual = -1;  // sqrt(r M^-1 r / scale); block Jacobi also looks at the error's energy e A e
+  double residual = -1;  // sqrt(r M^-1 r / scale); the error's energy e A e is looked at as well
   double scale = 0;      // b M^-1 b, b with what held particles contribute; or the largest scale asked for, if that is smaller
   std::string message;
 };
@@ -26,8 +26,8 @@ struct ConjugateGradientOptions {
 };
 
 // x: in, the starting guess (empty: zero); out, the solution. An unconverged or non-finite solve is a report, not an error.
-// factor: ready, preconditions in place of block Jacobi.
+// network: ready, preconditions in place of block Jacobi.
 SolveReport conjugate_gradients(const PairSystem&, std::vector<double>& x, const ConjugateGradientOptions&,
-                                CholmodFactor* factor = nullptr);
+                                StiffNetwork* network = nullptr);
 
 }  // namespace pigment::solve

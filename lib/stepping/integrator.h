@@ -24,6 +24,7 @@ struct Attempt {
   Vec3Array position;              // at the step's end, file order
   Vec3Array velocity, angular_velocity;  // means over the step
   double error = 0;                // estimated, root mean square over near pairs, in units of gap + Debye length
+  double largest_growth = 1.5;     // of the next step over this one
   int iterations = 0, solves = 0;
 };
 

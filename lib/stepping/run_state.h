@@ -27,12 +27,12 @@ struct RunState {
   double surface_height = 0;        // um, of the free surface: the dewatering's, or where a pressure-limited one lags behind
   double surface_velocity = 0;      // um/ms, of the last step
   std::array<double, 3> end_pressure{};  // pN/um^2, at the end of the last step (stepping/integrator.h)
+  bool stiff = false;               // whether the last step's solver needed its network of stiff pairs
   std::vector<double> protrusion;   // guess for the free surface, um
   Vec3Array list_reference;         // positions at which the neighbour list was made
   double list_temperature = 0;      // K, of the liquid then: ranges follow it
   Vec3Array frame_position;         // positions at the last output frame: immobility is judged over a frame
   double frame_height = 0;          // H then
-  std::vector<std::int64_t> solver_factor;    // matrix of the factor that the solver keeps (solve/adaptive_solver.h)
   std::deque<Redistribution> redistribution;  // of the last frames, as many as the immobility window holds
   std::deque<double> mass_centre;   // at the last frames under a steady flow, as many as two windows of stationarity hold
   std::vector<double> interval;     // sums since the last frame (stepping/consolidate.cpp)

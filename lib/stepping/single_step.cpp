@@ -3,6 +3,12 @@
 
 namespace pigment::stepping {
 
+namespace {
+// Where Newton's method has a long way to go (passes) bonds are about to tear, and a much longer step is likely to fail, which costs more
+// than it would bring.
+double growth_among_bonds(int passes) { return passes > 9 ? 1 : passes > 3 ? 1.2 : 1.5; }
+}  // namespace
+
 Attempt single_step(StepContext& context, const RunState& state, double dt, assembly::Treatment treatment, bool with_error) {
   Attempt a;
   a.last = context.solve({state.position, state.protrusion, state.time, dt, {state.step}, state.surface_height, state.surface_velocity}, treatment,
@@ -10,6 +16,7 @@ Attempt single_step(StepContext& context, const RunState& state, double dt, asse
   a.iterations = a.last.iterations;
   a.solves = a.last.solves;
   if (!a.last.good) return a;
+  if (treatment == assembly::Treatment::ConvexSplitting) a.largest_growth = growth_among_bonds(a.solves);
   if (with_error && state.last_step > 0) {
     std::vector<double> rate = context.gap_rates(a.last.velocity);
     const std::vector<double> before = context.gap_rates(context.in_engine_order(state.velocity, state.angular_velocity));

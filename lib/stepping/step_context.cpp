@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/random.h"
@@ -15,11 +16,15 @@ namespace pigment::stepping {
 namespace {
 // Beside them a pressure-limited surface looks for its height, and the rest follows each time.
 constexpr int most_refinements = 25, most_with_search = 60, long_refinement = 8;
+// Bonds that are still thrown about by more than their length after so many passes seldom settle in twice as many: a shorter step is
+// the quicker way.
+constexpr int hopeless = 10;
+// A bond that came out this many times its length off, and further with every pass, is torn open; what it held needs shorter steps.
+constexpr double runaway = 8;
 }
 
 StepContext::StepContext(const Problem& problem, const RunState& state) : problem_(problem) {
   make_list(state.list_reference, liquid_at(problem.interactions.liquid, state.list_temperature));
-  solver_.restore_factor(state.solver_factor, assembly_->topology());
 }
 
 Liquid StepContext::liquid_at_time(double t) const {
@@ -83,7 +88,6 @@ void StepContext::refresh_list(RunState& state) {
   state.list_reference = state.position;
   state.list_temperature = liquid.temperature;
   make_list(state.list_reference, liquid);
-  solver_.forget_factor();
 }
 
 std::vector<double> StepContext::in_engine_order(const Vec3Array& u, const Vec3Array& w) const {
@@ -150,7 +154,6 @@ bool StepContext::too_near_substrate(std::size_t k, const Vec3& position, const 
 // the next step's list at the same positions.
 void StepContext::list_at(const Vec3Array& position, double time) {
   make_list(position, liquid_at_time(time));
-  solver_.forget_factor();
   listed_within_step_ = true;
 }
 
@@ -214,6 +217,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   gap_scale_ = gap_scale(problem_.interactions, liquid);
   const bool thermal = noisy && problem_.interactions.brownian->model == forces::BrownianParameters::Model::FluctuationDissipation;
   const Vec3Array force = noisy && !thermal ? brownian_force(start.noise.step, start.step, liquid) : Vec3Array{};
+  solver_.begin_step(stiff_);
   solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
   assembly_->begin(start.position, film(start), liquid, start.two_step ? start.span : start.step, treatment, force, start.protrusion, start.two_step);
   if (thermal) {
@@ -228,6 +232,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   StepSolution s;
   s.velocity = std::move(guess);
   const int most = problem_.interactions.pressure_limited() ? most_with_search : most_refinements;
+  double farthest = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most; ++pass) {
     assembly_->build(system_);
     s.solve = solver_.solve(system_, s.velocity, sketch && pass == 0 ? rough : options);
@@ -240,6 +245,9 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     // left is a tenth of the error that the step may make.
     const double miss = std::sqrt(s.check.miss / static_cast<double>(id_.size()));
     const bool near = pass >= long_refinement && !problem_.interactions.pressure_limited() && s.check.only_pairs && !s.check.crossed && miss < 0.1 * problem_.stepping.tolerance;
+    const bool unsettled = pass >= hopeless && (s.check.crossed || s.check.farthest > 1), torn = pass >= 3 && s.check.farthest > std::max(runaway, farthest);
+    if (treatment == assembly::Treatment::ConvexSplitting && (unsettled || torn)) return s;
+    farthest = s.check.farthest;
     if (s.check.refine && !near) continue;
     // Without lubrication nothing keeps spheres apart but their forces, and a scene may have none.
     s.good = !s.check.crossed || !problem_.interactions.lubrication();

@@ -88,9 +88,9 @@ class StepContext {
   const std::vector<double>& memory_of_last_step() const { return assembly_->memory(); }
   const std::vector<double>& gaps_of_last_step() const { return assembly_->gaps(); }
 
-  // The solver's factor belongs to the run's state; revision changes with it.
-  long factor_revision() const { return solver_.revision(); }
-  const std::vector<std::int64_t>& packed_factor() const { return solver_.packed_factor(); }
+  // Whether solves are to begin with the solver's network of stiff pairs, and whether the last one had it (solve/adaptive_solver.h).
+  void expect_stiff(bool stiff) { stiff_ = stiff; }
+  bool was_stiff() const { return solver_.has_network(); }
 
   // Why a step of this length failed: step, time, pair, radii, gap, force and a step that would do.
   std::string describe_failure(const RunState&, double dt, const StepSolution&) const;
@@ -106,7 +106,7 @@ class StepContext {
   std::vector<std::int64_t> id_;  // engine order
   solve::PairSystem system_;
   solve::AdaptiveSolver solver_;
-  bool listed_within_step_ = false;
+  bool listed_within_step_ = false, stiff_ = false;
   double gap_scale_ = 0;  // um, at the temperature of the step solved last
 };
 

@@ -12,6 +12,8 @@ namespace {
 constexpr double shortest_step = 1e-9;  // ms
 // A step whose error is that many times what was asked for is taken again, shorter.
 constexpr double intolerable = 4;
+// Every so many steps a layer that its bonds make stiff is tried without the solver's network.
+constexpr int look_again = 16;
 
 double noise_step(const Problem& p, const Liquid& liquid) {
   const double scale = gap_scale(p.interactions, liquid);
@@ -43,6 +45,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
   if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
   StepReport report;
   for (;; ++report.rejected) {
+    context_.expect_stiff(state.stiff && state.step % look_again != 0);
     Attempt attempt = integrator_->attempt(context_, state, dt, controlled);
     report.iterations += attempt.iterations;
     report.solves += attempt.solves;
@@ -57,23 +60,20 @@ StepReport Stepper::advance(RunState& state, double longest) {
       state.surface_velocity = (report.height - state.surface_height) / dt;
       state.surface_height = report.height;
       state.end_pressure = attempt.end_pressure;
+      state.stiff = context_.was_stiff();
       state.previous_velocity = std::move(state.velocity);
       state.previous_angular_velocity = std::move(state.angular_velocity);
       state.velocity = std::move(attempt.velocity);
       state.angular_velocity = std::move(attempt.angular_velocity);
       state.position = std::move(attempt.position);
       state.protrusion = std::move(attempt.last.protrusion);
-      if (context_.factor_revision() != saved_factor_) {
-        state.solver_factor = context_.packed_factor();
-        saved_factor_ = context_.factor_revision();
-      }
       state.previous_step = state.last_step;
       state.last_step = dt;
       state.time += dt;
       ++state.step;
       if (controlled) {
         // A step cut short to meet an output time says nothing against the longer one, unless even it was too long.
-        const double wanted = next_step(dt, error);
+        const double wanted = std::min(next_step(dt, error), attempt.largest_growth * dt);
         state.preferred_step = dt < state.preferred_step && error < 1 ? std::max(wanted, std::min(state.preferred_step, 4 * wanted)) : wanted;
       }
       return report;

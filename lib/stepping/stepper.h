@@ -32,7 +32,6 @@ class Stepper {
  private:
   StepContext context_;
   std::unique_ptr<Integrator> integrator_;
-  long saved_factor_ = 0;  // revision of the factor that the state holds
 };
 
 // A state at rest at time 0 for a packing.
