@@ -7,12 +7,14 @@ here=$(cd "$(dirname "$0")" && pwd)
 bin=$1 folder=$2 part=${3:-1}
 cake=$here/../filter-cake/scene.yaml
 mkdir -p "$folder"
+/usr/bin/python3 "$here/../filter-cake/flow.py" 100 0.5 5 > "$folder/flow.csv"
+flow=$(realpath "$folder")/flow.csv
 times() { /usr/bin/python3 -c "print(f'{$1:g}')"; }
 # NAME DURATION STEP OPTIONS...: spheres of 0.5 um that 5 g/m2/s keeps as a cake.
 row() {
   local name=$1 duration=$2 step=$3
   shift 3
-  local scene=("$cake" --set "dewatering.file=$here/../filter-cake/stokes-5-quick.csv" --set hydrodynamics.rotation=true "$@")
+  local scene=("$cake" --set "dewatering.file=$flow" --set hydrodynamics.rotation=true "$@")
   local run="$folder/$name"
   "$bin/pigment-pack" "${scene[@]}" --quiet -o "$run.packing.h5" >&2
   "$bin/pigment-dewater" "${scene[@]}" --quiet -o "$run.dewatering.h5" 2> /dev/null
