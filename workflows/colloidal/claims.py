@@ -36,7 +36,7 @@ ALL = LOW + HIGH
 reach = lambda p, t: all(r.time[-1] > t - 1e-3 for r in of_potential(p))     # noqa: E731
 at_time = lambda t: [p for p in POTENTIALS if reach(p, t)]                   # noqa: E731
 PACKINGS = range(len(of_potential(50)))
-DEAR = "layers at 0 to 10 mV are for SIZE=full: every pair becomes a contact, and a tenth of a second takes two minutes of one core"
+DEAR = "layers at 0 to 10 mV are for SIZE=full: every pair becomes a contact, which is dear"
 
 # ---- surface potential
 WITHIN = 0.01     # what we call a difference in thickness: "much thicker" in the source is several per cent of the layer
