@@ -23,9 +23,27 @@ constexpr double linearisation_share = 0.005, linear_range = 0.3;
 // opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about. Up to where it
 // was at the beginning of the step it opens at once.
 constexpr double focus_share = 0.1;
+constexpr double furthest_turn = 0.9;  // cosine
 constexpr double bond_reach = 1e-3, bond_rise = 1.15;  // um
 
 }  // namespace
+
+void StepAssembly::turn_axes(const std::vector<double>& u) {
+  if (!split_) return;
+  const std::size_t D = interactions_.rotation() ? 6 : 3;
+#pragma omp parallel for schedule(static)
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (gap_begin_[p] <= 0) continue;
+    const auto [i, j] = pairs_[p];
+    const double contact = radius_[i] + radius_[j];
+    Vec3 d = separation_[p];
+    for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
+    // The direction alone is taken: spheres as far apart as they are, about which half-way axes leave no turn (refine). A velocity that
+    // would carry one round the other is no guess.
+    d *= separation_[p].norm() / d.norm();
+    if (d.dot(separation_[p]) > furthest_turn * contact * contact) normal_[p] = (separation_[p] + d).normalized();
+  }
+}
 
 double StepAssembly::farthest_off(const std::vector<double>& u) const {
   const std::size_t D = interactions_.rotation() ? 6 : 3;

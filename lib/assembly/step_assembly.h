@@ -81,6 +81,8 @@ class StepAssembly {
   // empty; protrusion: guess of each particle's protrusion through the free surface at the end of the step, file order.
   void begin(const Vec3Array& position, const Film&, const Liquid&, double dt, Treatment, const Vec3Array& force,
              const std::vector<double>& protrusion, const TwoStep* = nullptr);
+  // Splitting alone: axes half-way along the motion that these velocities (engine order) foretell.
+  void turn_axes(const std::vector<double>& velocity);
   // Fills the system for the current guesses.
   void build(solve::PairSystem&) const;
   // Fills the system with R at the beginning of the step alone: no stiffness; its right-hand side means nothing.

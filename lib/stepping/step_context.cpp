@@ -231,6 +231,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   rough.tolerance = std::min(10 * options.tolerance, 0.1);
   StepSolution s;
   s.velocity = std::move(guess);
+  if (!s.velocity.empty()) assembly_->turn_axes(s.velocity);
   const int most = problem_.interactions.pressure_limited() ? most_with_search : most_refinements;
   double farthest = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most; ++pass) {
