@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <utility>
 
 #include "solve/pair_product.h"
 
@@ -21,6 +22,9 @@ constexpr int at(int row, int column) { return row * (row + 1) / 2 + column; }  
 // A pair is stiff where its squeeze is so many times the lesser drag. In an uncharged layer of 4,700 particles a thousandth was
 // reached in 9 to 13 iterations with anything from 2 to 100, in a jammed charged one in 12 with 2, 15 with 10, 48 with 100, of ever fewer pairs.
 constexpr double stiff_over_drag = 10;
+// A factor made anew keeps the pairs of the one before, and with them its order and its pattern, while no more than so many others have
+// become stiff. Each costs an iteration or so.
+constexpr int most_missing = 10;
 
 template <typename Each>
 void each_pair(const PairSystem& system, Each each) {
@@ -35,15 +39,9 @@ struct StiffPair {
   double n[3], squeeze;
 };
 
-std::vector<StiffPair> stiff_pairs(const PairSystem& system) {
-  std::vector<StiffPair> stiff;
-  const auto add = [&](const auto& p) {
-    const double drag = std::min(system.particle[p.i].across, system.particle[p.j].across);
-    if (p.squeeze > stiff_over_drag * drag) stiff.push_back({std::min(p.i, p.j), std::max(p.i, p.j), {p.n[0], p.n[1], p.n[2]}, p.squeeze});
-  };
-  each_pair(system, add);
-  std::sort(stiff.begin(), stiff.end(), [](const StiffPair& a, const StiffPair& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
-  return stiff;
+template <typename Pair>
+bool is_stiff(const PairSystem& system, const Pair& p, double squeeze) {
+  return squeeze > stiff_over_drag * std::min(system.particle[p.i].across, system.particle[p.j].across);
 }
 
 }  // namespace
@@ -56,6 +54,8 @@ struct StiffNetwork::Data {
   std::vector<double> cross, spin;
   std::vector<char> held;
   std::vector<double> squeeze;  // of every pair, as the factor has it; chunk by chunk, full ones first
+  std::vector<StiffPair> pairs;    // sorted by their particles
+  std::vector<std::int32_t> slot;  // of every pair: which of `pairs` it is; -1: none
 
   Data() {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
@@ -73,12 +73,15 @@ struct StiffNetwork::Data {
   }
 
   // S, its lower triangle: the diagonal block of each particle, then one block for each stiff pair, rows rising.
-  cholmod_sparse* assemble(const PairSystem& system, const std::vector<StiffPair>& pairs);
+  cholmod_sparse* assemble(const PairSystem& system);
   // An elimination order of particles (approximate minimum degree), each one's three unknowns together.
-  std::vector<int> order(std::size_t n, const std::vector<StiffPair>& pairs);
+  std::vector<int> order(std::size_t n);
+  void choose_pairs(const PairSystem& system);
+  // How many stiff pairs are not among `pairs`.
+  int missing(const PairSystem& system) const;
 };
 
-cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system, const std::vector<StiffPair>& pairs) {
+cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system) {
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const std::size_t n = system.topology->particles();
   const int D = system.unknowns_per_particle(), entries = D * (D + 1) / 2;
@@ -137,7 +140,7 @@ cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system, const std
   return a;
 }
 
-std::vector<int> StiffNetwork::Data::order(std::size_t n, const std::vector<StiffPair>& pairs) {
+std::vector<int> StiffNetwork::Data::order(std::size_t n) {
   std::vector<int> unknown(3 * n);
   cholmod_sparse* graph = cholmod_allocate_sparse(n, n, pairs.size(), 1, 1, -1, CHOLMOD_PATTERN, &common);
   if (!graph) return {};
@@ -157,6 +160,28 @@ std::vector<int> StiffNetwork::Data::order(std::size_t n, const std::vector<Stif
   return unknown;
 }
 
+void StiffNetwork::Data::choose_pairs(const PairSystem& system) {
+  pairs.clear();
+  slot.clear();
+  std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> found;
+  each_pair(system, [&](const auto& p) {
+    if (is_stiff(system, p, p.squeeze)) found.push_back({{std::min(p.i, p.j), std::max(p.i, p.j)}, slot.size()});
+    slot.push_back(-1);
+  });
+  std::sort(found.begin(), found.end());
+  for (const auto& [particles, pair] : found) {
+    slot[pair] = static_cast<std::int32_t>(pairs.size());
+    pairs.push_back({particles.first, particles.second, {}, 0});
+  }
+}
+
+int StiffNetwork::Data::missing(const PairSystem& system) const {
+  int count = 0;
+  std::size_t q = 0;
+  each_pair(system, [&](const auto& p) { count += slot[q++] < 0 && is_stiff(system, p, p.squeeze); });
+  return count;
+}
+
 StiffNetwork::StiffNetwork() = default;
 StiffNetwork::~StiffNetwork() = default;
 StiffNetwork::StiffNetwork(StiffNetwork&&) noexcept = default;
@@ -170,31 +195,40 @@ int StiffNetwork::changed(const PairSystem& system, double times) const {
   for (std::size_t k = 0; k < system.held.size(); ++k) count += system.held[k] != data_->held[k];
   each_pair(system, [&](const auto& p) {
     const double now = p.squeeze, then = data_->squeeze[q];
-    const double drag = std::min(system.particle[p.i].across, system.particle[p.j].across);
-    if (std::max(now, then) > stiff_over_drag * drag && (now > times * then || then > times * now)) ++count;
+    if (is_stiff(system, p, std::max(now, then)) && (now > times * then || then > times * now)) ++count;
     ++q;
   });
   return count;
 }
 
 std::string StiffNetwork::factorize(const PairSystem& system) {
-  data_ = std::make_unique<Data>();
+  const std::size_t n = system.topology->particles();
+  const bool anew = !ready() || data_->missing(system) > most_missing;
+  if (anew) data_ = std::make_unique<Data>();
   Data& d = *data_;
-  each_pair(system, [&](const auto& p) { d.squeeze.push_back(p.squeeze); });
-  const std::vector<StiffPair> pairs = stiff_pairs(system);
-  std::vector<int> order = d.order(system.topology->particles(), pairs);
-  cholmod_sparse* a = order.empty() ? nullptr : d.assemble(system, pairs);
-  if (a) {
-    d.factor = cholmod_analyze_p(a, order.data(), nullptr, 0, &d.common);
+  if (anew) d.choose_pairs(system);
+  d.squeeze.clear();
+  each_pair(system, [&](const auto& p) {
+    if (const std::int32_t at = d.slot[d.squeeze.size()]; at >= 0) {
+      std::copy(p.n, p.n + 3, d.pairs[at].n);
+      d.pairs[at].squeeze = p.squeeze;
+    }
+    d.squeeze.push_back(p.squeeze);
+  });
+  if (cholmod_sparse* a = d.assemble(system)) {
+    if (anew) {
+      d.right = cholmod_allocate_dense(3 * n, 1, 3 * n, CHOLMOD_REAL, &d.common);
+      std::vector<int> order = d.order(n);
+      if (!order.empty()) d.factor = cholmod_analyze_p(a, order.data(), nullptr, 0, &d.common);
+    }
     // CHOLMOD starts threads of its own for a few hundred numbers at a time, which takes as long as the factor itself.
     const int levels = omp_get_max_active_levels();
     omp_set_max_active_levels(0);
     if (d.factor && d.common.status >= CHOLMOD_OK) cholmod_factorize(a, d.factor, &d.common);
     omp_set_max_active_levels(levels);
     cholmod_free_sparse(&a, &d.common);
-    d.right = cholmod_allocate_dense(order.size(), 1, order.size(), CHOLMOD_REAL, &d.common);
   }
-  if (d.right && d.common.status == CHOLMOD_OK) return "";
+  if (d.right && d.factor && d.common.status == CHOLMOD_OK) return "";
   const bool indefinite = d.common.status == CHOLMOD_NOT_POSDEF;
   data_.reset();
   return indefinite ? "the matrix is not positive definite" : "CHOLMOD failed (out of memory?)";
