@@ -61,6 +61,7 @@ bool is_sound(const stepping::RunState& state, const io::TrajectoryWriter& write
 void run(app::CommandLine& line) {
   if (options.checkpoint_every < 0)
     throw InputError(fmt::format("--checkpoint-every: {} is not a time; write 0 s or more", options.checkpoint_every));
+  app::keep_freed_memory();
   config::Document document(options.scene, line.common.set);
   const scene::Scene scene = scene::read_scene(document, "consolidate");
   auto packing = std::make_unique<const io::ParticleFile>(options.packing);

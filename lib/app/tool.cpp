@@ -1,5 +1,8 @@
 #include "app/tool.h"
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <omp.h>
 #include <unistd.h>
 
@@ -8,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <optional>
 
@@ -250,6 +254,13 @@ int run_tool(const std::string& name, int argc, char** argv, const std::function
     std::cerr << full_name << ": unexpected error: " << e.what() << "\n";
   }
   return 1;
+}
+
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
 }
 
 void handle_signals() {

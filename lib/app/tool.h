@@ -48,6 +48,10 @@ class CommandLine {
 int run_tool(const std::string& name, int argc, char** argv, const std::function<void(CommandLine&)>& declare,
              const std::function<void(CommandLine&)>& body);
 
+// For a tool whose arrays come and go all the time: what is freed stays with the process and is used again, where the system would
+// have to clear as many pages anew.
+void keep_freed_memory();
+
 // A signal (SIGINT, SIGTERM) ends a tool at once with status 128 + n: nothing partial stands under a final name. A tool
 // with a checkpoint calls handle_signals() instead; then stop_requested() is the signal's number (0: none came), which it
 // polls, saves, and throws Interrupted.

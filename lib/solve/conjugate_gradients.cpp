@@ -37,17 +37,15 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   const bool held = !system.held.empty();
   bool guess = x_out.size() == size;
   if (!guess) x_out.assign(size, 0.0);
-  std::vector<double> b(padded), x(padded), r(padded), z(padded), p(padded), ap(output_size<D>(topology));
-  to_strided<D>(system.right_hand_side, b);
+  std::optional<BlockJacobi<D>> jacobi;  // before the vectors: what it is made from takes their room
+  if (!network) jacobi.emplace(system);
+  std::vector<double> x(padded), r(padded), z(padded), p(padded), ap(output_size<D>(topology));
   if (guess) to_strided<D>(x_out, x);
-  std::vector<double> given(held ? padded : 0), scale(held ? ap.size() : 0);
   if (held) {
     guess = true;
     for (std::size_t k = 0; k < n; ++k)
-      if (system.held[k]) x[k * S + 2] = given[k * S + 2] = system.held_velocity[k];
+      if (system.held[k]) x[k * S + 2] = p[k * S + 2] = system.held_velocity[k];
   }
-  std::optional<BlockJacobi<D>> jacobi;
-  if (!network) jacobi.emplace(system);
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count);
@@ -70,33 +68,36 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   };
 #pragma omp parallel
   {
-    // ap = A x, scale = A given
-    for (int which = 0; which < 2; ++which) {
-      if (which == 0 ? !guess : !held) continue;
-      const double* in = which == 0 ? x.data() : given.data();
-      double* out = which == 0 ? ap.data() : scale.data();
+    // Of the free rows: r = b - A given, whose size is the scale, and p = b - A x, the residual. p holds what is given before.
+    for (const bool of_given : {true, false}) {
+      const bool product = of_given ? held : guess;
+      const double* in = of_given ? p.data() : x.data();
+      double* left = of_given ? r.data() : p.data();
+      if (product) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, in, out, sums);
-      if (flows) {
+        for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, in, ap.data(), sums);
+        if (flows) {
 #pragma omp single
-        sums.combine();
+          sums.combine();
+        }
+#pragma omp for schedule(static)
+        for (int c = 0; c < count; ++c) finish_chunk<D>(system, c, false, in, ap.data(), sums);
       }
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) finish_chunk<D>(system, c, false, in, out, sums);
+      for (int c = 0; c < count; ++c)
+        for (auto k = static_cast<std::size_t>(begin_of(c)); k < static_cast<std::size_t>(begin_of(c + 1)); ++k) {
+          for (int d = 0; d < D; ++d) {
+            const std::size_t q = k * S + place<D>(d);
+            left[q] = system.right_hand_side[k * D + d] - (product ? ap[q] : 0.0);
+          }
+          if (held && system.held[k]) left[k * S + 2] = 0;
+        }
     }
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) {
-      // z serves as room for b with the held velocities taken out, then for what it is named after.
       const std::size_t begin = static_cast<std::size_t>(begin_of(c)) * S, end = static_cast<std::size_t>(begin_of(c + 1)) * S;
-      for (std::size_t q = begin; q < end; ++q) {
-        r[q] = b[q] - (held ? scale[q] : 0.0);
-        p[q] = b[q] - (guess ? ap[q] : 0.0);
-      }
-      if (held)
-        for (int k = begin_of(c); k < begin_of(c + 1); ++k)
-          if (system.held[k]) r[static_cast<std::size_t>(k) * S + 2] = p[static_cast<std::size_t>(k) * S + 2] = 0;
       double sum = 0;
-      for (std::size_t q = begin; q < end; ++q) sum += (x[q] - (held ? given[q] : 0.0)) * (r[q] + p[q]);
+      for (std::size_t q = begin; q < end; ++q) sum += x[q] * (r[q] + p[q]);
       partial_energy[c] = sum;
     }
     precondition(partial_bb);

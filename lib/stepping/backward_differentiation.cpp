@@ -31,19 +31,13 @@ class BackwardDifferentiation final : public Integrator {
       from[k] = state.position[k] + share * state.last_step * u;
       predicted[k] = state.position[k] + dt * expected;
     }
-    Vec3Array first(n), spin(n);
-#pragma omp parallel for schedule(static)
-    for (std::size_t k = 0; k < n; ++k) {
-      first[k] = (predicted[k] - from[k]) / span;
-      spin[k] = state.angular_velocity[k] + std::min(w, furthest) * (state.angular_velocity[k] - state.previous_angular_velocity[k]);
-    }
     const assembly::TwoStep two_step{share, before, from, predicted};
     StepStart start{state.position, state.protrusion, state.time, dt, {state.step}, state.surface_height, state.surface_velocity};
     start.two_step = &two_step;
     start.last_step = state.last_step;
     start.span = span;
     Attempt a;
-    a.last = context.solve(start, assembly::Treatment::Newton, context.in_engine_order(first, spin));
+    a.last = context.solve(start, assembly::Treatment::Newton, starting_velocity(context, state, two_step, span, std::min(w, furthest)));
     a.iterations = a.last.iterations;
     a.solves = a.last.solves;
     if (!a.last.good) return a;
@@ -70,6 +64,18 @@ class BackwardDifferentiation final : public Integrator {
   }
 
  private:
+  // Where the extrapolated velocities lead, as the velocity of the step from two_step.from; spins extrapolated by `ahead` of the last change.
+  static std::vector<double> starting_velocity(const StepContext& context, const RunState& state, const assembly::TwoStep& two_step, double span,
+                                               double ahead) {
+    const std::size_t n = state.position.size();
+    Vec3Array first(n), spin(n);
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < n; ++k) {
+      first[k] = (two_step.predicted[k] - two_step.from[k]) / span;
+      spin[k] = state.angular_velocity[k] + ahead * (state.angular_velocity[k] - state.previous_angular_velocity[k]);
+    }
+    return context.in_engine_order(first, spin);
+  }
   static std::array<double, 3> at_end(const Attempt& a) { return {a.last.pressures.surface, a.last.pressures.substrate, a.last.pressures.liquid}; }
   static constexpr double furthest = 1.5;  // what is extrapolated further is no guess
 };
