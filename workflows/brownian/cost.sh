@@ -36,6 +36,6 @@ PY
 }
 echo "| spheres of 0.5 um | model time | step | wall time a step | in all |"
 echo "|---|---|---|---|---|"
-row thousand 30 auto --set layer.width="5 um" --set layer.thickness="8.727 um"
+row thousand 30 "0.125 ms" --set layer.width="5 um" --set layer.thickness="8.727 um"
 row long 300 "0.1 ms"
 row long-thousand 300 "0.1 ms" --set layer.width="5 um" --set layer.thickness="8.727 um"

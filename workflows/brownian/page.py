@@ -40,4 +40,6 @@ print(f"""## The rule for the step
 
 Near contact gap, force and noise are made dimensionless by the Debye length l and the time l c/kT, c = 6 pi mu R^2, R the reduced radius; dt kT/(l c) sets
 the error whatever the sizes. The default takes 0.25 of it for the smallest particles: {1e3 * default.step * 1e3:.0f} us here, where the mean gap is {100 * (default.mean / exact[0] - 1):+.1f} ±
-{100 * default.mean_error / exact[0]:.1f} % and its standard deviation {100 * (default.deviation / exact[1] - 1):+.1f} ± {100 * default.deviation_error / exact[1]:.1f} % off (240 ms). It goes with the Debye length and with the square of the radius.""")
+{100 * default.mean_error / exact[0]:.1f} % and its standard deviation {100 * (default.deviation / exact[1] - 1):+.1f} ± {100 * default.deviation_error / exact[1]:.1f} % off (240 ms). The step goes
+with the Debye length and with the square of the radius. At {1e3 * pairs.long.step * 1e3:.0f} us, the step of the long run of `make brownian-cost`,
+the mean gap is {100 * (pairs.long.mean / exact[0] - 1):+.1f} ± {100 * pairs.long.mean_error / exact[0]:.1f} % off.""")

@@ -24,11 +24,11 @@ class Gaps:
 
 
 class Pairs:
-    """results: the study's folder. runs: {(noise, treatment): {step in ms: Gaps}}; default: Gaps; exact: {noise: (mean, s.d.)}."""
+    """results: the study's folder. runs: {(noise, treatment): {step in ms: Gaps}}; default, long: Gaps; exact: {noise: (mean, s.d.)}."""
 
     def __init__(self, results):
         self.exact = pair_statistics(results / "interactions.csv")
-        self.default = Gaps(results / "pairs-default.h5")
+        self.default, self.long = Gaps(results / "pairs-default.h5"), Gaps(results / "pairs-long.h5")
         self.runs = {}
         for noise in NOISES:
             for treatment in TREATMENTS:
