@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <numeric>
@@ -86,6 +87,8 @@ void run(app::CommandLine& line) {
   std::map<std::string, std::string> inputs = provenance.inputs;
   inputs["scene"] = io::sha256_of_text(provenance.scene);
   inputs["version"] = version;
+  // Another build of the same version may keep another state, and would not go on with the same bytes.
+  if (const std::filesystem::path self = "/proc/self/exe"; std::filesystem::exists(self)) inputs["program"] = io::sha256_of_file(self);
   if (options.restart) io::set_checkpoint_aside(line.common.output);
   stepping::RunState state;
   Layer first = packing->layer(0);
