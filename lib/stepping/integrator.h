@@ -12,6 +12,7 @@
 //   backward_differentiation  newton_implicit with the velocity of the step before: second order, one solution a step
 //                       (BDF2 with variable steps; [hairer1996])
 #include <array>
+#include <limits>
 #include <memory>
 
 #include "stepping/step_context.h"
@@ -24,7 +25,7 @@ struct Attempt {
   Vec3Array position;              // at the step's end, file order
   Vec3Array velocity, angular_velocity;  // means over the step
   double error = 0;                // estimated, root mean square over near pairs, in units of gap + Debye length
-  double largest_growth = 1.5;     // of the next step over this one
+  double largest_growth = std::numeric_limits<double>::infinity();  // of the next step over this one, whatever its error
   int iterations = 0, solves = 0;
 };
 
