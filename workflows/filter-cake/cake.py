@@ -19,7 +19,9 @@ class Cake:
         self.case = case
         parts = case.split("-")
         self.size, self.flow, self.temperature, self.drag = parts[0], float(parts[1][1:]), float(parts[2][1:]), parts[3]
-        self.extra = parts[4] if len(parts) > 5 else ""
+        changed = parts[4:-1]           # the last part is the size of the study
+        self.seed = next((int(c[1:]) for c in changed if c[1:].isdigit()), 1)
+        self.extra = next((c for c in changed if not c[1:].isdigit()), "")
         with study.file(case, "trajectory") as f:
             layer = f["particles/layer"]
             self.position, self.time = 1e6 * layer["position/value"][:], layer["position/time"][:]

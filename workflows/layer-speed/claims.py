@@ -52,7 +52,8 @@ study.claim("3.4", f"A layer dries from 65 wt-% to rest within {SECONDS:g} s", "
             bool(r["seconds"] <= SECONDS and r["outcome"] in RESTED) if alone else None)
 study.claim("3.4", "A double layer of 1 nm takes at most three times as long", "none", spent(thin_layer), f"at most {3 * SECONDS:g} s, at rest; {where}",
             bool(thin_layer["seconds"] <= 3 * SECONDS and thin_layer["outcome"] in RESTED) if alone else None)
-study.claim("3.4", "A double layer of 0.5 nm comes to rest as well", "none", spent(thinner), "at rest or at the first critical concentration, status 0", thinner["outcome"] in RESTED)
+study.claim("3.4", "A double layer of 0.5 nm comes to rest as well", "none", spent(thinner), "at rest or at the first critical concentration, status 0; quick runs end before, SIZE=full decides",
+            None if thinner["outcome"] == "until" and not full else thinner["outcome"] in RESTED)
 ratio = uncharged["seconds"] / charged["seconds"]
 study.claim("4.4", "Uncharged particles take at most ten times as long as particles of -25 mV", "none",
             f"{ratio:.1f} times: {spent(uncharged)}, {100 * uncharged['solids']:.1f} wt-%; {spent(charged)}, {100 * charged['solids']:.1f} wt-%", f"at most 10, both to 80 wt-%; {where}",
