@@ -67,11 +67,16 @@ for key, label, bound in MEASURES:
     error = runs[layer].get(key)
     study.claim("accuracy", f"A whole layer is close enough to the converged run: {label}", "none",
                 f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s; converged runs differ by up to {chance[key]:.3g} from one another, which no error is told from",
-                f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound))
+                f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound),
+                why="" if full else f"a difference of any size grows, as paths are chaotic, and a piece of {runs[layer]['particles']} particles leaves more of it to chance than those of SIZE=full, which decides")
 
-figure, axis = study.figure("progress", f"Steps of whole layers against time; {runs[layer]['particles']} particles and, thinner, of {charged['particles']}", width=110)
+figure, axis = study.figure("progress", f"Steps of whole layers against time; {runs[layer]['particles']} particles, those to 80 wt-% {charged['particles']}; with the time by the clock that each took", width=110)
 for case in study.cases:
-    axis.plot(runs[case]["time"], runs[case]["step"], "--" if case in references else "-", label=f"{case}: {runs[case]['seconds']:.0f} s")
+    strategy, thickness, *changed = case.split("-", 2)
+    what = changed[0] if changed else "as in the drying study"
+    what = f"tolerance {what.removeprefix('tolerance-')}" if case in references else f"double layer of {what.removesuffix('nm')} nm" if what.endswith("nm") else \
+        f"−{what.removesuffix('mv')} mV, to 80 wt-%".replace("−0 ", "0 ") if what.endswith("mv") else what
+    axis.plot(runs[case]["time"], runs[case]["step"], "--" if case in references else "-", label=f"{thickness.replace('um', ' µm')}, {what}: {runs[case]['seconds']:.0f} s")
 axis.set(xlabel="time (s)", ylabel="steps", yscale="log", ylim=(10, None))
 axis.legend(fontsize=5.5)
 study.finish()
