@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "assembly/step_assembly.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr double weak_hold = 4;  // pN
 
 // Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess.
-constexpr double linearisation_share = 0.005, linear_range = 0.3;
+constexpr double linearisation_share = 0.01, linear_range = 0.3;
 
 // Splitting alone: with a gap further off than by its own length those within a tenth of it are put right before the others. And a bond
 // opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about. Up to where it
@@ -25,6 +26,15 @@ constexpr double linearisation_share = 0.005, linear_range = 0.3;
 constexpr double focus_share = 0.1;
 constexpr double furthest_turn = 0.9;  // cosine
 constexpr double bond_reach = 1e-3, bond_rise = 1.15;  // um
+
+// Takes down that a gap came out off its guess; returns by which share of the guess.
+double miss(GapCheck& check, double gap, double guess, double scale) {
+  const double missed = (gap - guess) / (std::max(gap, 0.0) + scale), off = std::abs(gap - guess) / guess, left = 0.5 * off * missed;
+  check.miss += missed * missed;
+  check.linearisation += left * left;
+  check.farthest = std::max(check.farthest, off);
+  return off;
+}
 
 }  // namespace
 
@@ -109,11 +119,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
       if (off_guess(gap, guess, two_step_ || split_ || guess != gap_begin_[p])) {
-        const double missed = (gap - guess) / (std::max(gap, 0.0) + scale);
-        check.miss += missed * missed;
-        const double off = std::abs(gap - guess) / guess, left = 0.5 * off * missed;
-        check.linearisation += left * left;
-        check.farthest = std::max(check.farthest, off);
+        const double off = miss(check, gap, guess, scale);
         check.refine = true;
         if (off < focus) continue;
         const StepForce force = pair_step_force(c, p);
@@ -122,7 +128,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         guess = bracket_[c][p].take(next, guess);
       }
     }
-    const bool pairs_refine = std::exchange(check.refine, false);
+    bool soft = std::exchange(check.refine, false);
     for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
       const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
       if (rough_) {
@@ -135,8 +141,9 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
           if (gap <= 0) check.crossed = true;
           if (newton_ && off_guess(gap, guess, two_step_ || split_ || guess != begin)) {
             const StepForce force = substrate_step_force(k);
+            miss(check, gap, guess, scale);
             guess = next_gap(gap, guess, force.tangent(gap), force);
-            check.refine = true;
+            soft = true;
           }
         } else if ((gap < 0) != (guess < 0)) {
           guess = gap;
@@ -147,26 +154,38 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         const double protrusion = z + a + interactions_.free_surface->roughness - surface_end_;
         double& guess = protrusion_guess_[k];
         const double before = guess;
+        double wrong = 0, sticks_out = 0;  // pN, um: what is left if this is not put right
         if (guess == held) {
-          if (holding_force_[k] < (undecided ? -weak_hold : 0)) guess = 0;  // the surface lets go
-          else if (holding_force_[k] > forces::rigid_load(*interactions_.free_surface, a)) guess = 2 * forces::rigid_protrusion;
+          if (holding_force_[k] < (undecided ? -weak_hold : 0)) {
+            guess = 0;  // the surface lets go
+            wrong = holding_force_[k];
+          } else if (const double rigid = forces::rigid_load(*interactions_.free_surface, a); holding_force_[k] > rigid) {
+            guess = 2 * forces::rigid_protrusion;
+            wrong = holding_force_[k] - rigid;
+          }
         } else if (guess > 0) {
           const forces::SpringForce spring = forces::lifted_spring(*interactions_.free_surface, a, guess);
           const double taken = spring.force + spring.stiffness * (protrusion - guess);
-          const double true_force = forces::lifted_spring(*interactions_.free_surface, a, protrusion).force;
+          wrong = forces::lifted_spring(*interactions_.free_surface, a, protrusion).force - taken;
           if (protrusion <= 0) guess = held;
           // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle. The force rises ever more slowly with
           // the height: Newton's method from below comes nearer without overshooting, so what left the constant part begins at its end.
-          else if (std::abs(true_force - taken) > 1e-3 * taken + 1e-4)
+          else if (std::abs(wrong) > 1e-3 * taken + 1e-4)
             guess = guess < forces::rigid_protrusion && protrusion > forces::rigid_protrusion ? forces::rigid_protrusion : protrusion;
         } else if (protrusion > (undecided ? forces::rigid_protrusion : 0)) {
           guess = held;  // caught
+          holding_force_[k] = 0;
+          sticks_out = protrusion;
         }
-        if (guess != before) check.refine = true;
+        if (guess != before) {
+          const double left = (dt_ * std::abs(wrong) / (6 * std::numbers::pi * liquid_.viscosity * a) + sticks_out) / scale;
+          check.linearisation += left * left;
+          (interactions_.pressure_limited() ? check.refine : soft) = true;
+        }
       }
     }
     check.only_pairs = !check.refine;
-    check.refine = check.refine || pairs_refine;
+    check.refine = check.refine || soft;
   }
   if (path_resistance_ && flow_) follow_flow(u);
   ++passes_;
