@@ -40,7 +40,8 @@ noisy = {d: runs[f"{d}-{size}-s1-b"] for d in strategies if f"{d}-{size}-s1-b" i
 deviation = {d: rise[d].error * np.sqrt(rise[d].n) if rise[d].n > 1 else np.inf for d in strategies}
 study.claim("4.2", "Brownian motion of the latex changes where it goes", "not in the source",
             "the same change, % of the thickness: " + "; ".join(f"{d.upper()} {100 * r.rise:.2f} with, {100 * seeds(d)[0].rise:.2f} without, same packing; s.d. of packings {deviation[d]:.2f}" for d, r in noisy.items()),
-            "in one strategy by more than three standard deviations of the packings", None if not noisy else bool(any(abs(100 * (r.rise - seeds(d)[0].rise)) > 3 * deviation[d] for d, r in noisy.items())))
+            "in one strategy by more than three standard deviations of the packings", None if not noisy else bool(any(abs(100 * (r.rise - seeds(d)[0].rise)) > 3 * deviation[d] for d, r in noisy.items())),
+            why="noise carries latex up as often as down, so that its mean height follows only where noise evens out what the flow has gathered; one packing with noise tells no less than what packings differ by")
 figure, axes = study.figure("binder", f"Volume of latex (150 nm) over that of pigment by height, 1 where it is as in the whole layer: mean of {len(seeds(strategies[0]))} packings at the start and at the end (band: standard error), and one packing with Brownian motion", columns=len(strategies))
 for axis, d in zip(axes, strategies):
     group = seeds(d)

@@ -67,7 +67,8 @@ for axis in axes:
 study.claim("3.3.3", "Displacements are Gaussian", "Fig. 15, left", f"Kolmogorov-Smirnov p = {p_gauss:.2g} of {step.size:,} on the Gaussian of (23)",
             "p > 0.01, width of the Gaussian from (23), nothing fitted; one step alone is uniform, twenty are not", bool(p_gauss > 0.01))
 study.claim("3.3.3", "Displacements follow a log-Gaussian", "Fig. 15, left", f"Kolmogorov-Smirnov distance {log_gauss.statistic:.3f} of the sizes' logarithms (mean and s.d. fitted), p = {log_gauss.pvalue:.1g}",
-            "p > 0.01; sizes of a Gaussian displacement are spread wider to the small side than any log-Gaussian", bool(log_gauss.pvalue > 0.01))
+            "p > 0.01; sizes of a Gaussian displacement are spread wider to the small side than any log-Gaussian", bool(log_gauss.pvalue > 0.01),
+            why="what (23) and (25) give are Gaussian displacements, by theory as here (the row above)")
 chance = [2 * min(chi2.cdf(n * s / (2 * diffusivity * ti), n), chi2.sf(n * s / (2 * diffusivity * ti), n)) for ti, s, n in rows]
 study.claim("3.3.3", "Displacements over 5 to 480 s follow (23)", "Fig. 15, right", f"smallest p = {min(chance):.2g} of {len(chance)} intervals, mean square against 2 D t",
             "chi-squared of each interval's mean square, every p > 0.01/8", bool(min(chance) > 0.01 / 8))
@@ -108,7 +109,8 @@ study.claim("3.3.3", "Noise that obeys fluctuation and dissipation samples Boltz
 kb = pairs.runs["k_brown", "explicit"][0.0078125]
 study.claim("3.3.3", "The force of (25) moves particles as Brownian motion does near others as well", "implied by its use in dense layers",
             f"mean {1e9 * kb.mean:.2f} ± {1e9 * kb.mean_error:.2f}, s.d. {1e9 * kb.deviation:.2f} nm at 0.008 ms; exact {1e9 * exact:.2f} and {1e9 * exact_sd:.2f}",
-            "standard deviation within 10 %", bool(abs(kb.deviation / exact_sd - 1) < 0.1))
+            "standard deviation within 10 %", bool(abs(kb.deviation / exact_sd - 1) < 0.1),
+            why="the force of (25) is scaled to the drag of a lone sphere, and near another the resistance is many times that: it moves the pair less than its thermal energy would")
 
 # ---- a column under uniform flow
 DIAMETER, POTENTIAL, DEBYE, FLOW, AREA, COUNT = 0.5, 25e-3, 5e-3, 1.5e-6, 2.4**2, 320   # of settled.yaml; um, V, um, m/s, um2
@@ -200,5 +202,7 @@ for name in ("undrifted", "k_brown"):
     difference, error = c.height - right.height, np.hypot(c.height_error, right.height_error)
     study.claim("4.1", f"A column of spheres with {SETTLED[name].split(', ')[1]} stands as high as with the full noise", "the source's noise" if name == "k_brown" else "not in the source",
                 f"mean height {c.height:.3f} ± {c.height_error:.3f} um against {right.height:.3f} ± {right.height_error:.3f}: {100 * difference / right.height:+.1f} %",
-                "no more than 3 standard errors apart", bool(abs(difference) < 3 * error))
+                "no more than 3 standard errors apart", bool(abs(difference) < 3 * error),
+                why={"undrifted": "without the drift that the divergence of the mobility makes, spheres gather where they are least mobile: near one another",
+                     "k_brown": "in a packed column its noise, scaled to the drag of lone spheres, moves them less than their thermal energy would"}[name])
 study.finish()

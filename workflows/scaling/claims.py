@@ -93,7 +93,8 @@ study.claim("3.4", "Memory is linear, at most 3 kB a particle at 41 vol%", "Tabl
             "both at most 3 kB", bool(max(growth, memory[-1] / n[-1]) <= 3000))
 blocks = 1 + 2 * pairs[-1]
 study.claim("3.4", "The matrix is filled to about 37/N", "37/N", f"{blocks:.1f}/N: {pairs[-1]:.2f} pairs a particle within {CUTOFF} of the smaller radius",
-            "blocks a row, 1 + 2 pairs a particle, within a factor of 2 of 37; the source's cutoff is longer", bool(18.5 <= blocks <= 74))
+            "blocks a row, 1 + 2 pairs a particle, within a factor of 2 of 37", bool(18.5 <= blocks <= 74),
+            why="the source's cutoff is longer; what that of lubrication changes is measured by study-accuracy")
 study.claim("3.4", "A million particles can be stepped", "1e6 is beyond the source", f"{n.max():,} particles, {good[-1]['steps']} steps; failed: {failed or 'none'}",
             "at least 10 steps of 9e5 or more particles; decided by SIZE=full", None if study.size == "quick" else bool(n.max() >= 9e5 and good[-1]["steps"] >= 10 and not failed))
 study.finish()

@@ -35,11 +35,13 @@ def difference(one, other, when):
 ranking = sorted(names, key=lambda q: np.mean(skin[end][q]))
 s = difference("hll", "llh", end)
 study.claim("4.2", "Of sequences that evaporate as much, late drying (LLH) leaves a more open top than early drying (HLL)", "not in the source; its section 4.2 asks for it",
-            f"solids 0.5 to 2 um below the surface over the middle, HLL less LLH: {s.text(2)} wt-% {end}; {difference('hll', 'llh', halfway).text(2)} {halfway}", f"above 0 at the end ({STUDENT})", s.above())
+            f"solids 0.5 to 2 um below the surface over the middle, HLL less LLH: {s.text(2)} wt-% {end}; {difference('hll', 'llh', halfway).text(2)} {halfway}", f"above 0 at the end ({STUDENT})", s.above(),
+            why=f"what sequences leave evens out: tops differ by {abs(difference('hll', 'llh', halfway).mean):.1f} wt-% {halfway} and by {abs(s.mean):.1f} {end}")
 best, second = ranking[:2]
 s = difference(second, best, end)
 study.claim("4.2", f"The most open top of {len(names)} sequences is that of {best.upper()}", "not in the source",
-            "from open to dense, wt-% (± of what differs in the same packing): " + "; ".join(listed(when) for when in (end, halfway, then)), f"below the next one, {second.upper()}, at the end ({STUDENT})", s.above())
+            "from open to dense, wt-% (± of what differs in the same packing): " + "; ".join(listed(when) for when in (end, halfway, then)), f"below the next one, {second.upper()}, at the end ({STUDENT})", s.above(),
+            why=f"the two differ by {s.mean:.2f} ± {s.error:.2f} wt-% at the end, as gradients even out; earlier by more, in another order")
 
 figure, axes = study.figure("sequences", f"Liquid lost by evaporation sequence (thirds of 0.48 s; high, low, middling), and what it leaves: solids 0.5 to 2 um below the surface over those in the middle, less the packing's; mean of {len(seeds(names[0]))} packings, bars: standard error of what sequences differ by in the same packing", columns=2, height=75)
 for i, q in enumerate(names):
