@@ -65,8 +65,8 @@ until-abs := 0.36
 until-eva := 0.42
 # One packing goes on to its rest at 85 wt-%, which takes as long as all before.
 until-eva-rest := 0.46
-# LLH at several double layers and potentials, to the 0.4 s that its claims ask for.
-until-llh-k := 0.41
+# LLH at several double layers and potentials, until half of all particles are clustered at 10 nm as well, at 0.42 s; claims ask for no later time.
+until-llh-k := 0.43
 # Tables: when as much liquid is lost as under HLL at 0.36 s, 8.64 g/m2 before scaling, so that the ends compare at the same solids.
 until-e-hll := 0.36
 until-e-lhl := 0.36
