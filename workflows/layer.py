@@ -125,7 +125,7 @@ def draw_section(axis, run, values, low=None, high=None, colours="viridis", thic
     face = np.where(np.isnan(shown)[:, None], (0.85, 0.85, 0.85, 1), map_(scale(np.nan_to_num(shown))))
     d = 2 * radius[near] / UM
     axis.add_collection(EllipseCollection(d, d, np.zeros(len(d)), units="xy", offsets=np.column_stack([x[near], position[near, 2]]) / UM,
-                                          offset_transform=axis.transData, facecolors=face, edgecolors="0.25", linewidths=0.2))
+                                          offset_transform=axis.transData, facecolors=face, edgecolors="0.25", linewidths=0.2, rasterized=True))     # thousands of circles: megabytes as lines
     axis.set(xlim=(0, box[0] / UM), ylim=(0, 1.02 * box[2] / UM), aspect="equal")
     axis.axhline(box[2] / UM, color="0.3", lw=0.6)
     return plt.cm.ScalarMappable(scale, map_)

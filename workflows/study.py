@@ -93,7 +93,7 @@ class Study:
         folder.mkdir(parents=True, exist_ok=True)
         for name, (figure, caption) in self._figures.items():
             part = folder / f"{name}.svg.part"
-            figure.savefig(part, format="svg", metadata={"Date": None, "Creator": None})
+            figure.savefig(part, format="svg", dpi=300, metadata={"Date": None, "Creator": None})
             # The caption inside the file, where browsers and the report look for it.
             text = part.read_text(encoding="utf-8")
             end_of_tag = re.search(r"<svg\b[^>]*>", text).end()

@@ -207,7 +207,7 @@ for axis, t in zip(axes, HLL_TIMES):
     x = position[:, 0] % box[0] / UM
     z = position[:, 2] / UM
     whole = np.abs(x[first] - x[second]) < box[0] / UM / 2       # not those across the border
-    lines = LineCollection(np.stack([np.column_stack([x[first], z[first]]), np.column_stack([x[second], z[second]])], axis=1)[whole], array=1e9 * gap[whole], cmap="coolwarm_r", linewidths=0.6,
+    lines = LineCollection(np.stack([np.column_stack([x[first], z[first]]), np.column_stack([x[second], z[second]])], axis=1)[whole], array=1e9 * gap[whole], cmap="coolwarm_r", linewidths=0.6, rasterized=True,
                            norm=plt.Normalize(nearest, 1e9 * r.threshold))
     axis.add_collection(lines)
     path = finger(r, t)[2]
