@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "solve/pair_product.h"
@@ -26,16 +28,35 @@ constexpr double stiff_over_drag = 10;
 // become stiff. Each costs an iteration or so.
 constexpr int most_missing = 10;
 
+// Pairs are numbered chunk by chunk, full ones first; of the chunk and of all chunks at the end: the number of the first.
+std::vector<std::size_t> first_of_chunks(const PairSystem& system) {
+  std::vector<std::size_t> first(system.full.size() + 1, 0);
+  for (std::size_t c = 0; c < system.full.size(); ++c) first[c + 1] = first[c] + system.full[c].size() + system.squeeze[c].size();
+  return first;
+}
+
+// Calls each(chunk, pair, number) for all pairs, chunks in parallel.
 template <typename Each>
-void each_pair(const PairSystem& system, Each each) {
-  for (int c = 0; c < system.topology->chunks().count(); ++c) {
-    for (const FullPair& p : system.full[c]) each(p);
-    for (const SqueezePair& p : system.squeeze[c]) each(p);
+void each_pair(const PairSystem& system, const std::vector<std::size_t>& first, Each each) {
+  const int chunks = system.topology->chunks().count();
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c) {
+    std::size_t number = first[c];
+    for (const FullPair& p : system.full[c]) each(c, p, number++);
+    for (const SqueezePair& p : system.squeeze[c]) each(c, p, number++);
   }
 }
 
+// How many pairs are such.
+template <typename Is>
+int count_pairs(const PairSystem& system, const std::vector<std::size_t>& first, Is is) {
+  std::vector<int> counts(system.full.size(), 0);
+  each_pair(system, first, [&](int c, const auto& p, std::size_t number) { counts[c] += is(p, number); });
+  return std::accumulate(counts.begin(), counts.end(), 0);
+}
+
 struct StiffPair {
-  std::int32_t low, high;  // particles
+  std::int32_t low, high;  // places of its particles in the order of elimination
   double n[3], squeeze;
 };
 
@@ -53,17 +74,18 @@ struct StiffNetwork::Data {
   // A_uw and A_ww^-1 of every particle, row by row; empty without rotation.
   std::vector<double> cross, spin;
   std::vector<char> held;
-  std::vector<double> squeeze;  // of every pair, as the factor has it; chunk by chunk, full ones first
-  std::vector<StiffPair> pairs;    // sorted by their particles
+  std::vector<std::size_t> first;  // as first_of_chunks
+  std::vector<double> squeeze;     // of every pair, as the factor has it
   std::vector<std::int32_t> slot;  // of every pair: which of `pairs` it is; -1: none
+  std::vector<StiffPair> pairs;    // sorted by their places
+  // Where each particle stands in the order of elimination, which stands where, and the first of `pairs` whose lower place it is.
+  std::vector<std::int32_t> place, particle, pairs_begin;
 
   Data() {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     cholmod_start(&common);
     common.print = 0;
     common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_GIVEN;
-    common.postorder = 1;
   }
   ~Data() {
     for (cholmod_dense** dense : {&right, &solution, &work[0], &work[1]})
@@ -74,11 +96,8 @@ struct StiffNetwork::Data {
 
   // S, its lower triangle: the diagonal block of each particle, then one block for each stiff pair, rows rising.
   cholmod_sparse* assemble(const PairSystem& system);
-  // An elimination order of particles (approximate minimum degree), each one's three unknowns together.
-  std::vector<int> order(std::size_t n);
-  void choose_pairs(const PairSystem& system);
-  // How many stiff pairs are not among `pairs`.
-  int missing(const PairSystem& system) const;
+  // The stiff pairs, and an order to eliminate their particles in: approximate minimum degree. False where memory is short.
+  bool choose_pairs(const PairSystem& system);
 };
 
 cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system) {
@@ -95,9 +114,9 @@ cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system) {
   auto* start = static_cast<int*>(a->p);
   auto* row = static_cast<int*>(a->i);
   auto* value = static_cast<double*>(a->x);
-  int entry = 0;
-  auto pair = pairs.begin();
-  for (std::size_t k = 0; k < n; ++k) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t at_place = 0; at_place < n; ++at_place) {
+    const std::size_t k = particle[at_place];
     const double* own = &block[k * entries];
     Matrix uu;
     for (int r = 0; r < 3; ++r)
@@ -120,66 +139,76 @@ cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system) {
       uu.col(2).setZero();
       uu(2, 2) = 1;
     }
-    const auto end = std::find_if(pair, pairs.end(), [k](const StiffPair& p) { return p.low != static_cast<std::int32_t>(k); });
+    int entry = static_cast<int>(6 * at_place) + 9 * pairs_begin[at_place];
     for (int c = 0; c < 3; ++c) {
-      start[3 * k + c] = entry;
+      start[3 * at_place + c] = entry;
       for (int r = c; r < 3; ++r, ++entry) {
-        row[entry] = static_cast<int>(3 * k) + r;
+        row[entry] = static_cast<int>(3 * at_place) + r;
         value[entry] = uu(r, c);
       }
-      for (auto p = pair; p != end; ++p)
+      for (std::int32_t q = pairs_begin[at_place]; q < pairs_begin[at_place + 1]; ++q) {
+        const StiffPair& p = pairs[q];
         for (int r = 0; r < 3; ++r, ++entry) {
-          row[entry] = 3 * p->high + r;
-          const bool given = (c == 2 && is_held(k)) || (r == 2 && is_held(p->high));
-          value[entry] = given ? 0 : -p->squeeze * p->n[r] * p->n[c];
+          row[entry] = 3 * p.high + r;
+          const bool given = (c == 2 && is_held(k)) || (r == 2 && is_held(particle[p.high]));
+          value[entry] = given ? 0 : -p.squeeze * p.n[r] * p.n[c];
         }
+      }
     }
-    pair = end;
   }
-  start[3 * n] = entry;
+  start[3 * n] = static_cast<int>(6 * n + 9 * pairs.size());
   return a;
 }
 
-std::vector<int> StiffNetwork::Data::order(std::size_t n) {
-  std::vector<int> unknown(3 * n);
-  cholmod_sparse* graph = cholmod_allocate_sparse(n, n, pairs.size(), 1, 1, -1, CHOLMOD_PATTERN, &common);
-  if (!graph) return {};
+bool StiffNetwork::Data::choose_pairs(const PairSystem& system) {
+  struct Found {
+    std::int32_t i, j;
+    std::size_t number;
+  };
+  const std::size_t n = system.topology->particles();
+  first = first_of_chunks(system);
+  std::vector<std::vector<Found>> of_chunk(system.full.size());
+  each_pair(system, first, [&](int c, const auto& p, std::size_t number) {
+    if (is_stiff(system, p, p.squeeze)) of_chunk[c].push_back({std::min(p.i, p.j), std::max(p.i, p.j), number});
+  });
+  std::vector<Found> found;
+  for (const auto& some : of_chunk) found.insert(found.end(), some.begin(), some.end());
+  const auto by_particles = [](const Found& a, const Found& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); };
+  std::sort(found.begin(), found.end(), by_particles);
+
+  cholmod_sparse* graph = cholmod_allocate_sparse(n, n, found.size(), 1, 1, -1, CHOLMOD_PATTERN, &common);
+  if (!graph) return false;
   auto* start = static_cast<int*>(graph->p);
   std::fill(start, start + n + 1, 0);
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    ++start[pairs[p].low + 1];
-    static_cast<int*>(graph->i)[p] = pairs[p].high;
+  for (std::size_t q = 0; q < found.size(); ++q) {
+    ++start[found[q].i + 1];
+    static_cast<int*>(graph->i)[q] = found[q].j;
   }
-  for (std::size_t k = 0; k < n; ++k) start[k + 1] += start[k];
-  std::vector<int> particle(n);
-  const bool ordered = cholmod_amd(graph, nullptr, 0, particle.data(), &common);
+  std::partial_sum(start, start + n + 1, start);
+  common.method[0].ordering = CHOLMOD_AMD;
+  common.postorder = 1;
+  cholmod_factor* symbolic = cholmod_analyze(graph, &common);
   cholmod_free_sparse(&graph, &common);
-  if (!ordered) return {};
-  for (std::size_t k = 0; k < n; ++k)
-    for (int d = 0; d < 3; ++d) unknown[3 * k + d] = 3 * particle[k] + d;
-  return unknown;
-}
+  if (!symbolic) return false;
+  particle.assign(static_cast<const int*>(symbolic->Perm), static_cast<const int*>(symbolic->Perm) + n);
+  cholmod_free_factor(&symbolic, &common);
+  // The matrix is written in this order, so that CHOLMOD need not permute it for every factor.
+  common.method[0].ordering = CHOLMOD_NATURAL;
+  common.postorder = 0;
+  place.resize(n);
+  for (std::size_t at_place = 0; at_place < n; ++at_place) place[particle[at_place]] = static_cast<std::int32_t>(at_place);
 
-void StiffNetwork::Data::choose_pairs(const PairSystem& system) {
-  pairs.clear();
-  slot.clear();
-  std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> found;
-  each_pair(system, [&](const auto& p) {
-    if (is_stiff(system, p, p.squeeze)) found.push_back({{std::min(p.i, p.j), std::max(p.i, p.j)}, slot.size()});
-    slot.push_back(-1);
-  });
-  std::sort(found.begin(), found.end());
-  for (const auto& [particles, pair] : found) {
-    slot[pair] = static_cast<std::int32_t>(pairs.size());
-    pairs.push_back({particles.first, particles.second, {}, 0});
+  for (Found& f : found) std::tie(f.i, f.j) = std::minmax({place[f.i], place[f.j]});
+  std::sort(found.begin(), found.end(), by_particles);
+  slot.assign(first.back(), -1);
+  pairs_begin.assign(n + 1, 0);
+  for (const Found& f : found) {
+    slot[f.number] = static_cast<std::int32_t>(pairs.size());
+    pairs.push_back({f.i, f.j, {}, 0});
+    ++pairs_begin[f.i + 1];
   }
-}
-
-int StiffNetwork::Data::missing(const PairSystem& system) const {
-  int count = 0;
-  std::size_t q = 0;
-  each_pair(system, [&](const auto& p) { count += slot[q++] < 0 && is_stiff(system, p, p.squeeze); });
-  return count;
+  std::partial_sum(pairs_begin.begin(), pairs_begin.end(), pairs_begin.begin());
+  return true;
 }
 
 StiffNetwork::StiffNetwork() = default;
@@ -190,36 +219,37 @@ bool StiffNetwork::ready() const { return data_ && data_->factor; }
 void StiffNetwork::forget() { data_.reset(); }
 
 int StiffNetwork::changed(const PairSystem& system, double times) const {
-  int count = 0;
-  std::size_t q = 0;
-  for (std::size_t k = 0; k < system.held.size(); ++k) count += system.held[k] != data_->held[k];
-  each_pair(system, [&](const auto& p) {
-    const double now = p.squeeze, then = data_->squeeze[q];
-    if (is_stiff(system, p, std::max(now, then)) && (now > times * then || then > times * now)) ++count;
-    ++q;
+  int count = count_pairs(system, data_->first, [&](const auto& p, std::size_t number) {
+    const double now = p.squeeze, then = data_->squeeze[number];
+    return is_stiff(system, p, std::max(now, then)) && (now > times * then || then > times * now);
   });
+  for (std::size_t k = 0; k < system.held.size(); ++k) count += system.held[k] != data_->held[k];
   return count;
 }
 
 std::string StiffNetwork::factorize(const PairSystem& system) {
   const std::size_t n = system.topology->particles();
-  const bool anew = !ready() || data_->missing(system) > most_missing;
+  const auto missing = [&](const auto& p, std::size_t number) { return data_->slot[number] < 0 && is_stiff(system, p, p.squeeze); };
+  const bool anew = !ready() || count_pairs(system, data_->first, missing) > most_missing;
   if (anew) data_ = std::make_unique<Data>();
   Data& d = *data_;
-  if (anew) d.choose_pairs(system);
-  d.squeeze.clear();
-  each_pair(system, [&](const auto& p) {
-    if (const std::int32_t at = d.slot[d.squeeze.size()]; at >= 0) {
+  bool chosen = true;
+  if (anew) {
+    chosen = d.choose_pairs(system);
+    d.squeeze.resize(d.first.back());
+  }
+  if (chosen)
+    each_pair(system, d.first, [&](int, const auto& p, std::size_t number) {
+      d.squeeze[number] = p.squeeze;
+      const std::int32_t at = d.slot[number];
+      if (at < 0) return;
       std::copy(p.n, p.n + 3, d.pairs[at].n);
       d.pairs[at].squeeze = p.squeeze;
-    }
-    d.squeeze.push_back(p.squeeze);
-  });
-  if (cholmod_sparse* a = d.assemble(system)) {
+    });
+  if (cholmod_sparse* a = chosen ? d.assemble(system) : nullptr) {
     if (anew) {
       d.right = cholmod_allocate_dense(3 * n, 1, 3 * n, CHOLMOD_REAL, &d.common);
-      std::vector<int> order = d.order(n);
-      if (!order.empty()) d.factor = cholmod_analyze_p(a, order.data(), nullptr, 0, &d.common);
+      d.factor = cholmod_analyze(a, &d.common);
     }
     // CHOLMOD starts threads of its own for a few hundred numbers at a time, which takes as long as the factor itself.
     const int levels = omp_get_max_active_levels();
@@ -244,7 +274,7 @@ void StiffNetwork::eliminate(int begin, int end, const double* r) {
     const double* own = r + static_cast<std::size_t>(k) * (rotation ? stride<6> : stride<3>);
     Eigen::Vector3d v = Vector(own);
     if (rotation) v -= Eigen::Map<const Matrix>(&data_->cross[9 * k]) * (Eigen::Map<const Matrix>(&data_->spin[9 * k]) * Vector(own + place<6>(3)));
-    for (int d = 0; d < 3; ++d) b[3 * k + d] = v[d];
+    for (int d = 0; d < 3; ++d) b[3 * data_->place[k] + d] = v[d];
   }
 }
 
@@ -260,7 +290,7 @@ double StiffNetwork::substitute(int begin, int end, const std::vector<char>& hel
   double product = 0;
   for (int k = begin; k < end; ++k) {
     const std::size_t own = static_cast<std::size_t>(k) * (rotation ? stride<6> : stride<3>);
-    const Eigen::Vector3d v = Vector(u + 3 * static_cast<std::size_t>(k));
+    const Eigen::Vector3d v = Vector(u + 3 * static_cast<std::size_t>(data_->place[k]));
     for (int d = 0; d < 3; ++d) z[own + d] = v[d];
     if (!held.empty() && held[k]) z[own + 2] = 0;
     product += Vector(r + own).dot(Vector(z + own));
