@@ -58,7 +58,7 @@ struct PairSystem {
   bool rotation = true;
   const PairTopology* topology = nullptr;
   std::vector<ParticleTerm> particle;
-  // One array a chunk, so that chunks fill and read theirs independently.
+  // One array a chunk, so that chunks fill and read theirs independently; rising by i, then j.
   std::vector<FullPairs> full;
   std::vector<SqueezePairs> squeeze;
   std::vector<std::vector<OwnBlock>> own;  // one array a chunk, its particles rising; empty: none anywhere

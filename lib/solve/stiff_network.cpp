@@ -28,31 +28,40 @@ constexpr double stiff_over_drag = 10;
 // become stiff. Each costs an iteration or so.
 constexpr int most_missing = 10;
 
-// Pairs are numbered chunk by chunk, full ones first; of the chunk and of all chunks at the end: the number of the first.
-std::vector<std::size_t> first_of_chunks(const PairSystem& system) {
-  std::vector<std::size_t> first(system.full.size() + 1, 0);
-  for (std::size_t c = 0; c < system.full.size(); ++c) first[c + 1] = first[c] + system.full[c].size() + system.squeeze[c].size();
-  return first;
-}
+// A pair as the factor has it; which of its stiff pairs, -1: none.
+struct KnownPair {
+  std::int32_t i, j, stiff;
+  double squeeze;
+};
+// Those of one chunk, as the system has them.
+struct KnownPairs {
+  std::vector<KnownPair> full, squeeze;
+};
 
-// Calls each(chunk, pair, number) for all pairs, chunks in parallel.
-template <typename Each>
-void each_pair(const PairSystem& system, const std::vector<std::size_t>& first, Each each) {
-  const int chunks = system.topology->chunks().count();
-#pragma omp parallel for schedule(static)
-  for (int c = 0; c < chunks; ++c) {
-    std::size_t number = first[c];
-    for (const FullPair& p : system.full[c]) each(c, p, number++);
-    for (const SqueezePair& p : system.squeeze[c]) each(c, p, number++);
+// Calls each(pair, what is known of it or nullptr). Pairs come and go between the solves of a step, since a law adds to some only while it
+// stiffens them; both lists rise by i, then j.
+template <typename Pairs, typename Each>
+void compare(const Pairs& pairs, std::vector<KnownPair>& known, Each each) {
+  auto then = known.begin();
+  for (const auto& p : pairs) {
+    while (then != known.end() && std::tie(then->i, then->j) < std::tie(p.i, p.j)) ++then;
+    const bool there = then != known.end() && then->i == p.i && then->j == p.j;
+    each(p, there ? &*then : nullptr);
   }
 }
 
-// How many pairs are such.
+// How many pairs are such, of all chunks.
 template <typename Is>
-int count_pairs(const PairSystem& system, const std::vector<std::size_t>& first, Is is) {
-  std::vector<int> counts(system.full.size(), 0);
-  each_pair(system, first, [&](int c, const auto& p, std::size_t number) { counts[c] += is(p, number); });
-  return std::accumulate(counts.begin(), counts.end(), 0);
+int count_pairs(const PairSystem& system, std::vector<KnownPairs>& known, Is is) {
+  const int chunks = system.topology->chunks().count();
+  int count = 0;
+#pragma omp parallel for schedule(static) reduction(+ : count)
+  for (int c = 0; c < chunks; ++c) {
+    const auto add = [&](const auto& p, const KnownPair* then) { count += is(p, then); };
+    compare(system.full[c], known[c].full, add);
+    compare(system.squeeze[c], known[c].squeeze, add);
+  }
+  return count;
 }
 
 struct StiffPair {
@@ -74,10 +83,8 @@ struct StiffNetwork::Data {
   // A_uw and A_ww^-1 of every particle, row by row; empty without rotation.
   std::vector<double> cross, spin;
   std::vector<char> held;
-  std::vector<std::size_t> first;  // as first_of_chunks
-  std::vector<double> squeeze;     // of every pair, as the factor has it
-  std::vector<std::int32_t> slot;  // of every pair: which of `pairs` it is; -1: none
-  std::vector<StiffPair> pairs;    // sorted by their places
+  std::vector<KnownPairs> known;  // of each chunk
+  std::vector<StiffPair> pairs;   // sorted by their places
   // Where each particle stands in the order of elimination, which stands where, and the first of `pairs` whose lower place it is.
   std::vector<std::int32_t> place, particle, pairs_begin;
 
@@ -98,6 +105,8 @@ struct StiffNetwork::Data {
   cholmod_sparse* assemble(const PairSystem& system);
   // The stiff pairs, and an order to eliminate their particles in: approximate minimum degree. False where memory is short.
   bool choose_pairs(const PairSystem& system);
+  // Takes over the system's pairs; of stiff ones that are gone nothing stays.
+  void know_pairs(const PairSystem& system);
 };
 
 cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system) {
@@ -163,16 +172,22 @@ cholmod_sparse* StiffNetwork::Data::assemble(const PairSystem& system) {
 bool StiffNetwork::Data::choose_pairs(const PairSystem& system) {
   struct Found {
     std::int32_t i, j;
-    std::size_t number;
+    KnownPair* pair;
   };
   const std::size_t n = system.topology->particles();
-  first = first_of_chunks(system);
-  std::vector<std::vector<Found>> of_chunk(system.full.size());
-  each_pair(system, first, [&](int c, const auto& p, std::size_t number) {
-    if (is_stiff(system, p, p.squeeze)) of_chunk[c].push_back({std::min(p.i, p.j), std::max(p.i, p.j), number});
-  });
+  known.assign(system.full.size(), {});
   std::vector<Found> found;
-  for (const auto& some : of_chunk) found.insert(found.end(), some.begin(), some.end());
+  for (std::size_t c = 0; c < known.size(); ++c) {
+    const auto take = [&](const auto& some, std::vector<KnownPair>& here) {
+      here.reserve(some.size());
+      for (const auto& p : some) {
+        here.push_back({p.i, p.j, -1, 0});
+        if (is_stiff(system, p, p.squeeze)) found.push_back({std::min(p.i, p.j), std::max(p.i, p.j), &here.back()});
+      }
+    };
+    take(system.full[c], known[c].full);
+    take(system.squeeze[c], known[c].squeeze);
+  }
   const auto by_particles = [](const Found& a, const Found& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); };
   std::sort(found.begin(), found.end(), by_particles);
 
@@ -200,15 +215,36 @@ bool StiffNetwork::Data::choose_pairs(const PairSystem& system) {
 
   for (Found& f : found) std::tie(f.i, f.j) = std::minmax({place[f.i], place[f.j]});
   std::sort(found.begin(), found.end(), by_particles);
-  slot.assign(first.back(), -1);
   pairs_begin.assign(n + 1, 0);
   for (const Found& f : found) {
-    slot[f.number] = static_cast<std::int32_t>(pairs.size());
+    f.pair->stiff = static_cast<std::int32_t>(pairs.size());
     pairs.push_back({f.i, f.j, {}, 0});
     ++pairs_begin[f.i + 1];
   }
   std::partial_sum(pairs_begin.begin(), pairs_begin.end(), pairs_begin.begin());
   return true;
+}
+
+void StiffNetwork::Data::know_pairs(const PairSystem& system) {
+  for (StiffPair& p : pairs) p.squeeze = 0;
+  const int chunks = system.topology->chunks().count();
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c) {
+    const auto take = [&](const auto& some, std::vector<KnownPair>& here) {
+      std::vector<KnownPair> now;
+      now.reserve(some.size());
+      compare(some, here, [&](const auto& p, const KnownPair* then) {
+        now.push_back({p.i, p.j, then ? then->stiff : -1, p.squeeze});
+        if (now.back().stiff < 0) return;
+        StiffPair& mine = pairs[now.back().stiff];
+        std::copy(p.n, p.n + 3, mine.n);
+        mine.squeeze = p.squeeze;
+      });
+      here = std::move(now);
+    };
+    take(system.full[c], known[c].full);
+    take(system.squeeze[c], known[c].squeeze);
+  }
 }
 
 StiffNetwork::StiffNetwork() = default;
@@ -219,8 +255,8 @@ bool StiffNetwork::ready() const { return data_ && data_->factor; }
 void StiffNetwork::forget() { data_.reset(); }
 
 int StiffNetwork::changed(const PairSystem& system, double times) const {
-  int count = count_pairs(system, data_->first, [&](const auto& p, std::size_t number) {
-    const double now = p.squeeze, then = data_->squeeze[number];
+  int count = count_pairs(system, data_->known, [&](const auto& p, const KnownPair* known) {
+    const double now = p.squeeze, then = known ? known->squeeze : 0;
     return is_stiff(system, p, std::max(now, then)) && (now > times * then || then > times * now);
   });
   for (std::size_t k = 0; k < system.held.size(); ++k) count += system.held[k] != data_->held[k];
@@ -229,23 +265,12 @@ int StiffNetwork::changed(const PairSystem& system, double times) const {
 
 std::string StiffNetwork::factorize(const PairSystem& system) {
   const std::size_t n = system.topology->particles();
-  const auto missing = [&](const auto& p, std::size_t number) { return data_->slot[number] < 0 && is_stiff(system, p, p.squeeze); };
-  const bool anew = !ready() || count_pairs(system, data_->first, missing) > most_missing;
+  const auto missing = [&](const auto& p, const KnownPair* known) { return (!known || known->stiff < 0) && is_stiff(system, p, p.squeeze); };
+  const bool anew = !ready() || count_pairs(system, data_->known, missing) > most_missing;
   if (anew) data_ = std::make_unique<Data>();
   Data& d = *data_;
-  bool chosen = true;
-  if (anew) {
-    chosen = d.choose_pairs(system);
-    d.squeeze.resize(d.first.back());
-  }
-  if (chosen)
-    each_pair(system, d.first, [&](int, const auto& p, std::size_t number) {
-      d.squeeze[number] = p.squeeze;
-      const std::int32_t at = d.slot[number];
-      if (at < 0) return;
-      std::copy(p.n, p.n + 3, d.pairs[at].n);
-      d.pairs[at].squeeze = p.squeeze;
-    });
+  const bool chosen = !anew || d.choose_pairs(system);
+  if (chosen) d.know_pairs(system);
   if (cholmod_sparse* a = chosen ? d.assemble(system) : nullptr) {
     if (anew) {
       d.right = cholmod_allocate_dense(3 * n, 1, 3 * n, CHOLMOD_REAL, &d.common);

@@ -109,6 +109,36 @@ TEST(AdaptiveSolver, SolvesExactlyWhereBlockJacobiIsTooSlow) {
   }
 }
 
+// Pairs come and go between the solves of a step, where a law stiffens some only.
+TEST(AdaptiveSolver, NetworkKnowsItsPairsWhenOthersComeAndGo) {
+  Chain chain;
+  make(chain, 2000, false, 1e-5, 4);
+  StiffNetwork network;
+  ASSERT_EQ(network.factorize(chain.system), "");
+  EXPECT_EQ(network.changed(chain.system, 3), 0);
+  Chain fewer;
+  make(fewer, 2000, false, 1e-5, 4);
+  SqueezePairs without;
+  without.restart(fewer.system.squeeze[0].size());
+  std::size_t place = 0;
+  for (const SqueezePair& p : fewer.system.squeeze[0])
+    if (const std::size_t k = place++; k != 0 && k != 7) without.push_back(p);
+  std::swap(fewer.system.squeeze[0], without);
+  // Two stiff pairs are gone, which no solve sees but by its right-hand side; all others are as they were.
+  EXPECT_EQ(network.changed(fewer.system, 3), 0);
+  ASSERT_EQ(network.factorize(fewer.system), "");
+  apply(fewer.system, fewer.exact, fewer.system.right_hand_side);
+  std::vector<double> x;
+  EXPECT_LT(conjugate_gradients(fewer.system, x, options, &network).iterations, 10);  // the network is the whole matrix
+  EXPECT_LT(error(x, fewer.exact), 1e-5);
+  // Back again they are two that the factor lacks.
+  EXPECT_EQ(network.changed(chain.system, 3), 2);
+  ASSERT_EQ(network.factorize(chain.system), "");
+  x.clear();
+  EXPECT_LT(conjugate_gradients(chain.system, x, options, &network).iterations, 40);
+  EXPECT_LT(error(x, chain.exact), 1e-5);
+}
+
 TEST(AdaptiveSolver, TakesNoNetworkWhereBlockJacobiIsQuick) {
   Chain chain;
   make(chain, 500, true, 1, 2);
