@@ -6,8 +6,8 @@
 // root mean square over the near pairs is held at the tolerance.
 // Brownian scenes: the step is fixed by the noise before it is drawn. With k_brown the smallest free particle moves by 4.2 Debye lengths
 // (root mean square a component; lubrication makes it far less where particles are near each other): what the step then changes in the mean
-// gap of a pair is a tenth of what this noise itself has wrong (docs/brownian.md: 1 % of 11 % at such a step, 250 us there), and less than it has wrong in the gaps of a layer
-// (study-accuracy). A step chosen after the noise is known would bias it.
+// gap of a pair is a tenth of what this noise itself has wrong (docs/brownian.md: 1 % of 11 % at such a step, 250 us there), and less than
+// it has wrong in the gaps of a layer (study-accuracy). A step chosen after the noise is known would bias it.
 #include "assembly/interactions.h"
 #include "model/particles.h"
 #include "stepping/parameters.h"
