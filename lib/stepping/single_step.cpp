@@ -6,7 +6,7 @@ namespace pigment::stepping {
 namespace {
 // Where Newton's method has a long way to go (passes) bonds are about to tear, and a much longer step is likely to fail, which costs more
 // than it would bring.
-double growth_among_bonds(int passes) { return passes > 9 ? 1 : passes > 3 ? 1.2 : std::numeric_limits<double>::infinity(); }
+double growth_among_bonds(int passes) { return passes > 9 ? 1 : passes > 3 ? 1.1 : std::numeric_limits<double>::infinity(); }
 }  // namespace
 
 Attempt single_step(StepContext& context, const RunState& state, double dt, assembly::Treatment treatment, bool with_error) {

@@ -15,7 +15,8 @@ namespace pigment::stepping {
 
 namespace {
 // Beside them a pressure-limited surface looks for its height, and the rest follows each time.
-constexpr int most_refinements = 25, most_with_search = 60, long_refinement = 8;
+constexpr int most_refinements = 25, most_with_search = 60, long_refinement = 3;
+constexpr double near_share = 0.2;  // of the error that the step may make
 // Bonds that are still thrown about by more than their length after so many passes seldom settle in twice as many: a shorter step is
 // the quicker way.
 constexpr int hopeless = 10;
@@ -242,10 +243,10 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     ++s.solves;
     if (!s.solve.converged) return s;
     s.check = assembly_->refine(system_, s.velocity, gap_scale_, problem_.stepping.tolerance);
-    // Bonds that open and close within the step may have no solution that one linear system has too; all gaps are open, and what is
-    // left is a tenth of the error that the step may make.
+    // Bonds that open and close within the step may have no solution that one linear system has too; all gaps are open, and they came out
+    // from where they were taken by less than a share of the error that the step may make.
     const double miss = std::sqrt(s.check.miss / static_cast<double>(id_.size()));
-    const bool near = pass >= long_refinement && !problem_.interactions.pressure_limited() && s.check.only_pairs && !s.check.crossed && miss < 0.1 * problem_.stepping.tolerance;
+    const bool near = pass >= long_refinement && !problem_.interactions.pressure_limited() && s.check.only_pairs && !s.check.crossed && miss < near_share * problem_.stepping.tolerance;
     const bool unsettled = pass >= hopeless && (s.check.crossed || s.check.farthest > 1), torn = pass >= 3 && s.check.farthest > std::max(runaway, farthest);
     if (treatment == assembly::Treatment::ConvexSplitting && (unsettled || torn)) return s;
     farthest = s.check.farthest;
