@@ -87,7 +87,8 @@ slope = exponent(step)
 study.claim("3.4", "Time per step is linear in the number of particles", "Figs 8, 9; O(N log N)",
             f"exponent {slope:.3f}, {reached}; of the iterations a step {exponent(iterations):.3f}, of the time an iteration "
             f"{exponent(step / iterations):.3f}" if slope else reached, "exponent fitted from 1e4 particles on at most 1.05",
-            None if slope is None else bool(slope <= 1.05))
+            None if slope is None else bool(slope <= 1.05),
+            why="what a layer of tens of thousands of particles keeps in the processor's cache a larger one fetches from memory; iterations a step do not grow")
 growth = (memory[-1] - memory[0]) / (n[-1] - n[0])
 study.claim("3.4", "Memory is linear, at most 3 kB a particle at 41 vol%", "Table 2", f"{growth / 1e3:.2f} kB for each further particle, {memory[-1] / n[-1] / 1e3:.2f} kB in all at {n[-1]:,}",
             "both at most 3 kB", bool(max(growth, memory[-1] / n[-1]) <= 3000))
