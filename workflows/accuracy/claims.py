@@ -1,4 +1,4 @@
-"""Errors of every run against the reference, beside its wall time (accuracy.csv), the front of the best, and whether the
+"""Errors of every run against the reference, beside its CPU time (accuracy.csv), the front of the best, and whether the
 defaults are on it."""
 import csv
 import json
@@ -9,7 +9,7 @@ from run_errors import MEASURES, differences, state
 from study import Study
 
 SHORT = 0.01   # s: until here single trajectories are compared
-MARGIN = 0.1   # wall times within this share of one another are alike
+MARGIN = 0.1   # CPU times within this share of one another are alike
 
 study = Study()
 folder = study.results / study.size
@@ -28,7 +28,7 @@ moved = np.sqrt(np.mean(np.sum(reference["short"] ** 2, axis=1)))
 rows = []
 for path in sorted(folder.glob("*/run.json")):
     run = json.loads(path.read_text())
-    row = {"run": path.parent.name, "status": run["status"], "seconds": run["seconds"]}
+    row = {"run": path.parent.name, "status": run["status"], "seconds": run["cpu_seconds"]}
     if run["status"] == 0:
         m = measures(path.parent.name)
         error = np.linalg.norm(m["short"] - reference["short"], axis=1)
@@ -60,7 +60,7 @@ def on_front(r, error):
 
 
 ERRORS = (("displacement_rms", "displacement at 10 ms, rms", None), ("displacement_median", "displacement at 10 ms, median", None), *MEASURES)
-figure, axes = study.figure("front", "Error against wall time of every knob; the line joins the runs that none beats in both", columns=3, rows=2)
+figure, axes = study.figure("front", "Error against CPU time of every knob; the line joins the runs that none beats in both", columns=3, rows=2)
 for axis, (error, label, bound) in zip(axes.flat, ERRORS):
     kinds = {}
     for r in done:
@@ -73,7 +73,7 @@ for axis, (error, label, bound) in zip(axes.flat, ERRORS):
     axis.plot([r["seconds"] for r in front], [max(r[error], 1e-5) for r in front], "-", color="#999999", linewidth=0.8, zorder=0)
     if bound:
         axis.axhline(bound, color="k", linestyle=":", linewidth=0.8)
-    axis.set(xlabel="wall time (s), one thread", ylabel=label)
+    axis.set(xlabel="CPU time (s), one thread", ylabel=label)
 axes.flat[0].legend(fontsize=5, ncol=2)
 
 for error, label, bound in ERRORS:
@@ -89,7 +89,7 @@ calm = measures("noise/reference")
 noises = []
 for path in sorted(folder.glob("noise/*/run.json")):
     run = json.loads(path.read_text())
-    row = {"run": path.parent.name, "status": run["status"], "seconds": run["seconds"]}
+    row = {"run": path.parent.name, "status": run["status"], "seconds": run["cpu_seconds"]}
     if run["status"] == 0:
         m = measures(f"noise/{row['run']}")
         row |= {"steps": m["steps"]} | differences(m, calm)
@@ -99,11 +99,11 @@ write_table("noise.csv", ["run", "status", "seconds", "steps", "profile_l1", "se
 ended = {r["run"]: r for r in noises if r["status"] == 0}
 # Two samples of as many separations from one distribution differ by less in 99 of 100 cases (Kolmogorov and Smirnov).
 chance = 1.63 * np.sqrt(2 / len(calm["gaps"]))
-figure, axes = study.figure("noise", "With Brownian motion: error of statistics against wall time, by noise and step; against the full noise at a step of 5 us. Dotted: what chance alone makes of the separations, 99 %", columns=3)
+figure, axes = study.figure("noise", "With Brownian motion: error of statistics against CPU time, by noise and step; against the full noise at a step of 5 us. Dotted: what chance alone makes of the separations, 99 %", columns=3)
 for axis, (error, label) in zip(axes, (("separation_ks", "separations < 50 nm, KS"), ("clustered", "clustered fraction at 20 nm"), ("profile_l1", "solids profile, L1"))):
     for (name, r), marker in zip(((n, r) for n, r in ended.items() if n != "reference"), "osv^<>DPX"):
         axis.loglog(r["seconds"], max(r[error], 1e-5), marker, label=name, linestyle="none", markersize=7 if name == "default" else 3.5)
-    axis.set(xlabel="wall time (s), one thread", ylabel=label)
+    axis.set(xlabel="CPU time (s), one thread", ylabel=label)
 axes[0].axhline(chance, color="k", linestyle=":", linewidth=0.8)
 axes[0].legend(fontsize=5)
 if "default" in ended:

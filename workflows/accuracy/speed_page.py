@@ -27,7 +27,7 @@ print(f"""# Speed and error
 {layer[0].upper() + layer[1:]}, HLL, without Brownian motion, packed in {packing['seconds']:.1f} s. Each row changes one thing from the default; INTEGRATOR-TOLERANCE changes the
 integrator and its tolerance. Errors are against the run `reference`: extrapolated, at a tight tolerance and a solver tolerance of 1e-8.
 
-| run | steps | wall time, s | displacement after 10 ms, rms | median | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |
+| run | steps | CPU time, s | displacement after 10 ms, rms | median | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |
 |---|---|---|---|---|---|---|---|---|""")
 for row in sorted(rows, key=lambda r: float(r["seconds"])):
     if row["status"] != "0":
@@ -52,7 +52,7 @@ if noises.exists():
 The same layer to its first 10 ms (`SIZE=full`: 0.1 s); errors against the full noise (`fluctuation_dissipation`) at a step of 5 us, by statistics, since no two paths agree.
 NOISE-STEP: `fd` is the full noise, `implicit` and `explicit` the same with the force at the ends of the step, `undrifted` without its drift, `k_brown` the source's.
 
-| run | steps | wall time, s | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |
+| run | steps | CPU time, s | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |
 |---|---|---|---|---|---|---|""")
     for row in sorted(rows, key=lambda r: float(r["seconds"])):
         if row["status"] != "0":
