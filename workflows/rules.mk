@@ -65,6 +65,9 @@ slices = $(CASES:%=$(RESULTS)/%/.made/$(1).yaml)
 tool = $(SUMS)/$(1).sum
 # What a heavy stage took stands in .made/STAGE.took (timed.py), for cost_page.py.
 timed = $(LAUNCH) /usr/bin/python3 $(WORKFLOWS)/timed.py $(@D)/.made/$(1).took $(BIN)/pigment-$(1)
+# For a measured run (measured.py), whose record is the target: what is made again begins anew; what was stopped before it had a record
+# goes on from its checkpoint.
+anew = if [ -e $@ ]; then rm -f $(@D)/*.h5 $@; fi
 threads = $(if $(filter-out -j1,$(filter -j%,$(MAKEFLAGS))), --threads 1)
 replace_if_changed = $(WORKFLOWS)/replace_if_changed.sh
 

@@ -128,7 +128,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         guess = bracket_[c][p].take(next, guess);
       }
     }
-    bool soft = std::exchange(check.refine, false);
+    const bool pairs_refine = std::exchange(check.refine, false);
+    bool counted_refine = false;
     for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
       const double z = position_[k].z() + dt_ * u[k * D + 2], a = radius_[k];
       if (rough_) {
@@ -143,7 +144,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
             const StepForce force = substrate_step_force(k);
             miss(check, gap, guess, scale);
             guess = next_gap(gap, guess, force.tangent(gap), force);
-            soft = true;
+            counted_refine = true;
           }
         } else if ((gap < 0) != (guess < 0)) {
           guess = gap;
@@ -180,12 +181,13 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         if (guess != before) {
           const double left = (dt_ * std::abs(wrong) / (6 * std::numbers::pi * liquid_.viscosity * a) + sticks_out) / scale;
           check.linearisation += left * left;
-          (interactions_.pressure_limited() ? check.refine : soft) = true;
+          (interactions_.pressure_limited() ? check.refine : counted_refine) = true;
         }
       }
     }
-    check.only_pairs = !check.refine;
-    check.refine = check.refine || soft;
+    check.counted = !check.refine;
+    check.only_pairs = check.counted && !counted_refine;
+    check.refine = check.refine || counted_refine || pairs_refine;
   }
   if (path_resistance_ && flow_) follow_flow(u);
   ++passes_;
@@ -198,6 +200,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   for (const GapCheck& check : checks) {
     all.refine = all.refine || check.refine;
     all.crossed = all.crossed || check.crossed;
+    all.counted = all.counted && check.counted;
     all.only_pairs = all.only_pairs && check.only_pairs;
     if (check.smallest_gap < all.smallest_gap) {
       all.smallest_gap = check.smallest_gap;
@@ -205,7 +208,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     }
   }
   const double left = std::sqrt(all.linearisation / static_cast<double>(radius_.size()));
-  if (newton_ && all.only_pairs && !all.crossed && all.farthest < linear_range && left < linearisation_share * tolerance) all.refine = false;
+  if (newton_ && all.counted && !all.crossed && all.farthest < linear_range && left < linearisation_share * tolerance) all.refine = false;
   // Once the rest agrees at this height of the surface.
   if (interactions_.pressure_limited() && !all.refine && !all.crossed && !search_.settle(pressure)) {
     surface_end_ = search_.height();

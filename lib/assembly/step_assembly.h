@@ -46,8 +46,10 @@ struct GapCheck {
   bool refine = false;         // solve again
   bool crossed = false;        // some gap that was open came out closed
   bool only_pairs = true;      // nothing but open gaps of pairs asks for it
-  double miss = 0;             // sum of squares of how far those gaps came out from their guesses, in units of gap + scale
-  double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess
+  bool counted = true;         // all that asks for it has its share in `linearisation`
+  double miss = 0;             // sum of squares of how far gaps came out from their guesses, in units of gap + scale
+  double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess, and of how far
+                               // particles at the surface stick out of it or would be moved by what it holds them with wrongly
   double farthest = 0;         // largest |gap - guess|/guess
   double surface_height = 0;   // at the end of the step, um
   double smallest_gap = 0;     // at the end of the step, um (pairs)

@@ -250,7 +250,6 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     const bool unsettled = pass >= hopeless && (s.check.crossed || s.check.farthest > 1), torn = pass >= 3 && s.check.farthest > std::max(runaway, farthest);
     if (treatment == assembly::Treatment::ConvexSplitting && (unsettled || torn)) return s;
     farthest = s.check.farthest;
-    if (getenv("DBGP")) fmt::print(stderr, "pass {} it {} far {:.3g} lin {:.3g} miss {:.3g} pairs {} cross {} refine {}\n", pass, s.solve.iterations, s.check.farthest, std::sqrt(s.check.linearisation/id_.size()), miss, s.check.only_pairs, s.check.crossed, s.check.refine);
     if (s.check.refine && !near) continue;
     // Without lubrication nothing keeps spheres apart but their forces, and a scene may have none.
     s.good = !s.check.crossed || !problem_.interactions.lubrication();
