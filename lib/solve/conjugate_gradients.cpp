@@ -59,7 +59,6 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     if (network) {
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) network->eliminate(begin_of(c), begin_of(c + 1), r.data());
-#pragma omp single
       network->solve();
     }
 #pragma omp for schedule(static)
@@ -100,7 +99,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       for (std::size_t q = begin; q < end; ++q) sum += x[q] * (r[q] + p[q]);
       partial_energy[c] = sum;
     }
-    precondition(partial_bb);
+    if (options.scale == 0) precondition(partial_bb);
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) std::copy(p.begin() + begin_of(c) * S, p.begin() + begin_of(c + 1) * S, r.begin() + begin_of(c) * S);
     precondition(partial_rz);
@@ -108,7 +107,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     for (int c = 0; c < count; ++c) std::copy(z.begin() + begin_of(c) * S, z.begin() + begin_of(c + 1) * S, p.begin() + begin_of(c) * S);
 #pragma omp single
     {
-      bb = std::min(sum_of(partial_bb), options.largest_scale);
+      bb = options.scale > 0 ? options.scale : sum_of(partial_bb);
       rz = sum_of(partial_rz);
       target = options.tolerance * options.tolerance * bb;
       energy = sum_of(partial_energy);

@@ -3,7 +3,7 @@
 // particles, the squeeze of the stiff pairs alone: those whose squeeze (resistance and stiffness) is many times the drag of the
 // lesser particle. Those make chains and clusters that block Jacobi moves particle by particle; the rest, shear and far pairs, is
 // of the order of the drag. Without rotation between particles, each one's angular velocity is eliminated by itself, and
-// what is left, three unknowns a particle and few pairs, has a sparse Cholesky factor (CHOLMOD).
+// what is left, three unknowns a particle and few pairs, has a sparse Cholesky factor (solve/block_cholesky.h).
 //   M = [A_uu' A_uw; A_wu A_ww], A_uw and A_ww block-diagonal, A_uu' = diagonal blocks - sum over stiff pairs of squeeze n n^T
 //   S = A_uu' - A_uw A_ww^-1 A_wu = L L^T
 // M is positive definite: the diagonal blocks hold each stiff pair's share, and without those they are the particles' drag and more.
@@ -29,8 +29,8 @@ class StiffNetwork {
   int changed(const PairSystem&, double times) const;
   void forget();
 
-  // z = M^-1 r over strided vectors (solve/pair_product.h), in three parts, the first and last over ranges of particles; rows of held
-  // velocities stay zero. The last returns its part of r . z.
+  // z = M^-1 r over strided vectors (solve/pair_product.h), in three parts: the first and last over ranges of particles, the second
+  // by all threads of a parallel region together; rows of held velocities stay zero. The last returns its part of r . z.
   void eliminate(int begin, int end, const double* r);
   void solve();
   double substitute(int begin, int end, const std::vector<char>& held, const double* r, double* z) const;

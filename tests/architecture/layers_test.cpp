@@ -23,7 +23,7 @@ const std::vector<Door> doors = {
     {"hdf5", {"io"}, false},
     {"H5", {"io"}, false},
     {"openssl/", {"io"}, true},
-    {"cholmod", {"solve"}, false},
+    {"amd", {"solve"}, false},
     {"suitesparse/", {"solve"}, false},
     {"Random123/", {"base"}, true},
     {"udunits2", {"base"}, true},
@@ -106,8 +106,8 @@ TEST(Layers, ToolsSeeRoomsAndTheStandardLibraryOnly) {
       }
 }
 
-// A header seen from another room must not drag an outside library along: doors that are open to headers (HDF5, yaml-cpp,
-// CHOLMOD) are for the room's own internal headers.
+// A header seen from another room must not drag an outside library along: doors that are open to headers (HDF5, yaml-cpp, AMD)
+// are for the room's own internal headers.
 TEST(Layers, NoRoomShowsAnOutsideLibraryToAnother) {
   for (const fs::path& file : sources_below("lib"))
     for (const Include& include : includes_of(file)) {

@@ -1,0 +1,302 @@
+#include "solve/block_cholesky.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pigment::solve {
+
+namespace {
+
+constexpr int B = front_block;
+
+// The tree is cut until no subtree has more than this share of all work, and its pieces are gathered to half as much.
+constexpr double part_share = 1.0 / 24;
+// The work of a supernode beside its arithmetic, in the same unit.
+constexpr double overhead = 100;
+
+}  // namespace
+
+bool BlockCholesky::analyze(int nodes, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs) {
+  *this = {};
+  tree_ = make_elimination_tree(nodes, pairs);
+  if (tree_.place.size() != static_cast<std::size_t>(nodes)) return false;
+  places_.assign(tree_.supernodes.size(), {});
+  std::vector<std::int32_t> supernode_of(tree_.place.size());
+  std::size_t values = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Supernode& s = tree_.supernodes[k];
+    const Front f = front(static_cast<std::int32_t>(k), nullptr);
+    places_[k].values = values;
+    values += static_cast<std::size_t>(f.own) * f.rows();
+    largest_update_ = std::max(largest_update_, static_cast<std::size_t>(f.below) * f.below_rows());
+    std::fill(supernode_of.begin() + s.first, supernode_of.begin() + s.end, static_cast<std::int32_t>(k));
+  }
+  values_ = std::make_unique_for_overwrite<double[]>(values);
+  find_children();
+  place_blocks(pairs, supernode_of);
+  divide();
+  return true;
+}
+
+void BlockCholesky::find_children() {
+  std::vector<std::int32_t> next(places_.size());
+  for (const Supernode& s : tree_.supernodes)
+    if (s.parent >= 0) ++next[s.parent];
+  std::exclusive_scan(next.begin(), next.end(), next.begin(), 0);
+  for (std::size_t k = 0; k < places_.size(); ++k) places_[k].children_begin = places_[k].children_end = next[k];
+  children_.resize(places_.size());
+  row_in_parent_.resize(tree_.row.size());
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Supernode& s = tree_.supernodes[k];
+    if (s.parent < 0) continue;
+    children_[places_[s.parent].children_end++] = static_cast<std::int32_t>(k);
+    const Supernode& p = tree_.supernodes[s.parent];
+    const int own_rows = whole_lanes(B * (p.end - p.first));
+    std::int32_t at = p.rows_begin;
+    for (std::int32_t q = s.rows_begin; q < s.rows_end; ++q) {
+      const std::int32_t node = tree_.row[q];
+      if (node < p.end) {
+        row_in_parent_[q] = B * (node - p.first);
+      } else {
+        while (tree_.row[at] != node) ++at;
+        row_in_parent_[q] = own_rows + B * (at - p.rows_begin);
+      }
+    }
+  }
+}
+
+void BlockCholesky::place_blocks(const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs, const std::vector<std::int32_t>& supernode_of) {
+  const auto ends = [&](std::size_t q) { return std::minmax(tree_.place[pairs[q].first], tree_.place[pairs[q].second]); };
+  std::vector<std::int32_t> next(places_.size());
+  for (std::size_t q = 0; q < pairs.size(); ++q) ++next[supernode_of[ends(q).first]];
+  std::exclusive_scan(next.begin(), next.end(), next.begin(), 0);
+  for (std::size_t k = 0; k < places_.size(); ++k) places_[k].blocks_begin = places_[k].blocks_end = next[k];
+  blocks_.resize(pairs.size());
+  for (std::size_t q = 0; q < pairs.size(); ++q) {
+    const auto [low, high] = ends(q);
+    const std::int32_t k = supernode_of[low];
+    const Supernode& s = tree_.supernodes[k];
+    const Front f = front(k, nullptr);
+    std::size_t row = static_cast<std::size_t>(B) * (high - s.first);
+    if (high >= s.end) {
+      const auto begin = tree_.row.begin() + s.rows_begin, end = tree_.row.begin() + s.rows_end;
+      row = f.own_rows() + static_cast<std::size_t>(B) * (std::lower_bound(begin, end, high) - begin);
+    }
+    const std::size_t column = static_cast<std::size_t>(B) * (low - s.first);
+    blocks_[places_[k].blocks_end++] = {static_cast<std::int32_t>(q), tree_.place[pairs[q].first] == high, places_[k].values + column * f.rows() + row};
+  }
+}
+
+// The top: from the roots down, whatever has more than its share of the work below it.
+void BlockCholesky::divide() {
+  const auto count = static_cast<std::int32_t>(places_.size());
+  std::vector<double> work(count);  // of the subtree
+  std::vector<std::size_t> size(count);
+  double all = 0;
+  for (std::int32_t k = 0; k < count; ++k) {
+    const Front f = front(k, nullptr);
+    const double rows = f.rows(), own = overhead + f.own * rows * rows;
+    size[k] = static_cast<std::size_t>(f.below) * f.below_rows();
+    work[k] += own;
+    all += own;
+    if (tree_.supernodes[k].parent >= 0) work[tree_.supernodes[k].parent] += work[k];
+  }
+  const double share = part_share * all;
+  std::vector<std::int32_t> top_unknown(tree_.place.size(), -1);
+  Part part{};
+  std::size_t used = 0;
+  const auto finish = [&](std::int32_t end) {
+    part.end = end;
+    if (part.work > 0) parts_.push_back(part);
+    part = {end, end, 0, 0};
+    used = 0;
+  };
+  for (std::int32_t k = 0; k < count; ++k) {
+    const Supernode& s = tree_.supernodes[k];
+    Place& place = places_[k];
+    if (work[k] > share) {
+      place.part = -1;
+      place.update = top_memory_;
+      top_memory_ += size[k];
+      top_.push_back(k);
+      for (std::int32_t node = s.first; node < s.end; ++node, top_unknowns_ += B) top_unknown[node] = static_cast<std::int32_t>(top_unknowns_);
+      continue;
+    }
+    // A subtree's updates are a stack: its last ones are the children's of the next.
+    place.part = static_cast<std::int32_t>(parts_.size());
+    for (std::int32_t c = place.children_begin; c < place.children_end; ++c) used -= size[children_[c]];
+    place.update = used;
+    used += size[k];
+    part.memory = std::max(part.memory, used);
+    if (s.parent < 0 || work[s.parent] > share) {
+      part.work += work[k];
+      if (part.work > 0.5 * share) finish(k + 1);
+    }
+  }
+  finish(count);
+
+  parts_by_work_.resize(parts_.size());
+  std::iota(parts_by_work_.begin(), parts_by_work_.end(), 0);
+  std::stable_sort(parts_by_work_.begin(), parts_by_work_.end(), [&](std::int32_t a, std::int32_t b) { return parts_[a].work > parts_[b].work; });
+  target_.resize(tree_.row.size());
+  for (std::int32_t k = 0; k < count; ++k)
+    for (std::int32_t q = tree_.supernodes[k].rows_begin; q < tree_.supernodes[k].rows_end; ++q) {
+      const std::int32_t node = tree_.row[q];
+      target_[q] = places_[k].part >= 0 && top_unknown[node] >= 0 ? -1 - top_unknown[node] : B * node;
+    }
+  for (const Part& p : parts_) updates_.push_back(std::make_unique_for_overwrite<double[]>(p.memory));
+  updates_.push_back(std::make_unique_for_overwrite<double[]>(top_memory_));
+  to_top_.resize(parts_.size() * top_unknowns_);
+}
+
+Front BlockCholesky::front(std::int32_t k, double* update) const {
+  const Supernode& s = tree_.supernodes[k];
+  return {values_.get() + places_[k].values, update, B * (s.end - s.first), B * (s.rows_end - s.rows_begin)};
+}
+
+double* BlockCholesky::update_of(std::int32_t k) const { return updates_[places_[k].part < 0 ? parts_.size() : places_[k].part].get() + places_[k].update; }
+
+void BlockCholesky::gather(std::int32_t k, const Front& f, const std::vector<double>& diagonal, const std::vector<double>& between) const {
+  const Supernode& s = tree_.supernodes[k];
+  const auto rows = static_cast<std::size_t>(f.rows());
+  const int own_rows = f.own_rows(), below_rows = f.below_rows();
+  std::fill(f.values, f.values + f.own * rows, 0.0);
+  for (std::int32_t node = s.first; node < s.end; ++node)
+    for (int c = 0; c < B; ++c) std::copy_n(&diagonal[9 * static_cast<std::size_t>(node) + B * c], B, f.values + B * (node - s.first) * (rows + 1) + c * rows);
+  for (std::int32_t b = places_[k].blocks_begin; b < places_[k].blocks_end; ++b) {
+    const double* from = &between[9 * static_cast<std::size_t>(blocks_[b].pair)];
+    double* to = values_.get() + blocks_[b].values;
+    for (int c = 0; c < B; ++c)
+      for (int r = 0; r < B; ++r) to[c * rows + r] = from[blocks_[b].turned ? B * c + r : B * r + c];
+  }
+  if (!has_children(k)) return;
+  for (int j = 0; j < f.below; ++j) {
+    double* column = f.update + static_cast<std::size_t>(j) * below_rows;
+    std::fill(column + Front::first_row(j), column + below_rows, 0.0);
+  }
+  // Rows that follow one another in the child mostly do in the parent too.
+  struct Run {
+    int from, to, length;
+  };
+  std::vector<Run> runs;
+  for (std::int32_t c = places_[k].children_begin; c < places_[k].children_end; ++c) {
+    const Front child = front(children_[c], update_of(children_[c]));
+    runs.clear();
+    for (int from = 0; from < child.below; from += B) {
+      const int to = row_in_parent_[tree_.supernodes[children_[c]].rows_begin + from / B];
+      if (!runs.empty() && to == runs.back().to + runs.back().length)
+        runs.back().length += B;
+      else
+        runs.push_back({from, to, B});
+    }
+    for (std::size_t first = 0; first < runs.size(); ++first)
+      for (int a = 0; a < runs[first].length; ++a) {
+        const int column = runs[first].to + a, above = a / B * B;
+        // So that rows of the front index it, also where the own ones are not there.
+        double* to = column < own_rows ? f.values + column * rows : f.update + static_cast<std::ptrdiff_t>(column - own_rows) * below_rows - own_rows;
+        const double* from = child.update + static_cast<std::size_t>(runs[first].from + a) * child.below_rows();
+        add_rows(to + runs[first].to + above, from + runs[first].from + above, runs[first].length - above);
+        for (std::size_t r = first + 1; r < runs.size(); ++r) add_rows(to + runs[r].to, from + runs[r].from, runs[r].length);
+      }
+  }
+}
+
+bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* work) const {
+  for (std::int32_t k = parts_[part].begin; k < parts_[part].end; ++k) {
+    if (places_[k].part != part) continue;
+    // Its update goes where the children's are, once they have been read.
+    const Front f = front(k, work);
+    gather(k, f, diagonal, between);
+    if (!factor_front(f, has_children(k))) return false;
+    double* update = update_of(k);
+    for (int j = 0; j < f.below; ++j) {
+      const std::size_t column = static_cast<std::size_t>(j) * f.below_rows();
+      std::copy(work + column + Front::first_row(j), work + column + f.below_rows(), update + column + Front::first_row(j));
+    }
+  }
+  return true;
+}
+
+bool BlockCholesky::factorize(const std::vector<double>& diagonal, const std::vector<double>& between) {
+  bool good = true;
+#pragma omp parallel
+  {
+    const auto work = std::make_unique_for_overwrite<double[]>(largest_update_);
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t q = 0; q < parts_.size(); ++q)
+      if (!factor_part(parts_by_work_[q], diagonal, between, work.get())) {
+#pragma omp atomic write
+        good = false;
+      }
+    for (std::size_t t = 0; t < top_.size() && good; ++t) {
+      const std::int32_t k = top_[t];
+      const Front f = front(k, update_of(k));
+#pragma omp single
+      gather(k, f, diagonal, between);
+      for (int begin = 0; begin < f.own && good; begin += front_panel) {
+        const int end = std::min(begin + front_panel, f.own);
+#pragma omp barrier
+#pragma omp single
+        good = factor_panel(f, begin, end);
+        if (!good) break;
+#pragma omp for schedule(dynamic, 4) nowait
+        for (int column = end; column < f.own; column += B) subtract_from_own(f, begin, end, column);
+#pragma omp for schedule(dynamic, 4)
+        for (int column = 0; column < f.below; column += B) subtract_from_below(f, begin, end, column, has_children(k));
+      }
+    }
+  }
+  return good;
+}
+
+// Subtracts what the rows below lose: within the part from x, of the top from to_top, which is added to x when all parts are through.
+void BlockCholesky::forward(std::int32_t k, double* x, double* to_top, double* work) const {
+  const Front f = front(k, nullptr);
+  solve_forward(f, x + B * static_cast<std::size_t>(tree_.supernodes[k].first), work);
+  const std::int32_t* target = &target_[tree_.supernodes[k].rows_begin];
+  for (int row = 0; row < f.below; row += B, ++target) {
+    double* to = *target >= 0 ? x + *target : to_top - (*target + 1);
+    for (int d = 0; d < B; ++d) to[d] -= work[row + d];
+  }
+}
+
+void BlockCholesky::backward(std::int32_t k, double* x, double* work) const {
+  const Front f = front(k, nullptr);
+  const std::int32_t* node = &tree_.row[tree_.supernodes[k].rows_begin];
+  for (int row = 0; row < f.below; row += B, ++node) std::copy_n(x + B * static_cast<std::size_t>(*node), B, work + row);
+  std::fill(work + f.below, work + f.below_rows(), 0.0);
+  solve_backward(f, x + B * static_cast<std::size_t>(tree_.supernodes[k].first), work);
+}
+
+void BlockCholesky::solve(double* x) {
+  std::size_t most_rows = 0;
+  for (const Supernode& s : tree_.supernodes) most_rows = std::max(most_rows, static_cast<std::size_t>(whole_lanes(B * (s.rows_end - s.rows_begin))));
+  std::vector<double> work(most_rows);
+#pragma omp for schedule(dynamic, 1)
+  for (std::size_t q = 0; q < parts_.size(); ++q) {
+    const std::int32_t p = parts_by_work_[q];
+    double* to_top = to_top_.data() + p * top_unknowns_;
+    std::fill(to_top, to_top + top_unknowns_, 0.0);
+    for (std::int32_t k = parts_[p].begin; k < parts_[p].end; ++k)
+      if (places_[k].part == p) forward(k, x, to_top, work.data());
+  }
+#pragma omp single
+  {
+    std::size_t at = 0;
+    for (const std::int32_t k : top_) {
+      const Supernode& s = tree_.supernodes[k];
+      for (std::size_t own = B * static_cast<std::size_t>(s.first); own < B * static_cast<std::size_t>(s.end); ++own, ++at)
+        for (std::size_t p = 0; p < parts_.size(); ++p) x[own] += to_top_[p * top_unknowns_ + at];
+    }
+    for (const std::int32_t k : top_) forward(k, x, nullptr, work.data());
+    for (auto k = top_.rbegin(); k != top_.rend(); ++k) backward(*k, x, work.data());
+  }
+#pragma omp for schedule(dynamic, 1)
+  for (std::size_t q = 0; q < parts_.size(); ++q) {
+    const std::int32_t p = parts_by_work_[q];
+    for (std::int32_t k = parts_[p].end - 1; k >= parts_[p].begin; --k)
+      if (places_[k].part == p) backward(k, x, work.data());
+  }
+}
+
+}  // namespace pigment::solve

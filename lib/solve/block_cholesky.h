@@ -1,0 +1,76 @@
+#pragma once
+// Cholesky's factor of a sparse symmetric positive definite matrix of 3 x 3 blocks, A = L L^T, by the multifrontal method [duff1983]: every
+// supernode's columns are eliminated in a dense front, which leaves an update to its parent's. The tree is cut into parts, sets of whole subtrees that
+// threads take one by one, and a top, whose fronts they share. Every number is added up in an order that the tree alone sets: the same bytes
+// at any number of threads.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "solve/elimination_tree.h"
+#include "solve/front.h"
+
+namespace pigment::solve {
+
+class BlockCholesky {
+ public:
+  // Which different nodes have a block between them, each pair once. False where memory is short.
+  bool analyze(int nodes, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
+  // Where each node stands in the order of elimination.
+  const std::vector<std::int32_t>& place() const { return tree_.place; }
+  // diagonal: 9 numbers for each place; between: 9 for each of the pairs, row by row, rows of its second node, columns of its first.
+  // False where a pivot is not positive.
+  bool factorize(const std::vector<double>& diagonal, const std::vector<double>& between);
+  // x = A^-1 x, 3 numbers for each place. By all threads of the parallel region that it is called in; outside of one, by one thread.
+  void solve(double* x);
+
+ private:
+  // Of a supernode.
+  struct Place {
+    std::int32_t part;                          // that it is in, -1: the top
+    std::size_t values;                         // where its columns begin in values_
+    std::size_t update;                         // where its update begins, in the memory of its part
+    std::int32_t children_begin, children_end;  // of children_
+    std::int32_t blocks_begin, blocks_end;      // of blocks_
+  };
+  // A block of the matrix, and where it goes.
+  struct Block {
+    std::int32_t pair;
+    bool turned;  // the pair's first node is the later one
+    std::size_t values;
+  };
+  struct Part {
+    std::int32_t begin, end;  // supernodes; those of the top among them are not the part's
+    std::size_t memory;       // numbers, for its updates
+    double work;
+  };
+
+  void find_children();
+  void place_blocks(const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs, const std::vector<std::int32_t>& supernode_of);
+  void divide();
+  Front front(std::int32_t supernode, double* update) const;
+  double* update_of(std::int32_t supernode) const;
+  // What the front is before its elimination: the matrix's own numbers and the children's updates.
+  void gather(std::int32_t supernode, const Front&, const std::vector<double>& diagonal, const std::vector<double>& between) const;
+  bool factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* work) const;
+  void forward(std::int32_t supernode, double* x, double* to_top, double* work) const;
+  void backward(std::int32_t supernode, double* x, double* work) const;
+  bool has_children(std::int32_t supernode) const { return places_[supernode].children_begin < places_[supernode].children_end; }
+
+  EliminationTree tree_;
+  std::vector<Place> places_;
+  // Of each row below a supernode: the row of its parent's front, and the unknown of x that it adds to; that of the top counted from -1 down.
+  std::vector<std::int32_t> row_in_parent_, target_;
+  std::vector<std::int32_t> children_;
+  std::vector<Block> blocks_;
+  std::vector<Part> parts_;
+  std::vector<std::int32_t> parts_by_work_, top_;
+  std::size_t top_unknowns_ = 0, top_memory_ = 0, largest_update_ = 0;
+  std::unique_ptr<double[]> values_;
+  std::vector<std::unique_ptr<double[]>> updates_;  // of each part, then of the top
+  std::vector<double> to_top_;                      // of each part: what the top's unknowns get from it
+};
+
+}  // namespace pigment::solve

@@ -1,0 +1,181 @@
+#include "solve/front.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pigment::solve {
+
+namespace {
+
+constexpr int B = front_block;
+constexpr int lane_start(int n) { return n / lanes * lanes; }
+
+// c (B columns, rows in whole lanes, column by column) -= a b^T, where a has K columns and b is three rows of the same. Named sums, since an
+// array of them would be kept in memory.
+PIGMENT_INLINE void subtract_12_rows(double* c, int ldc, const double* a, const double* b, int lda, int K, bool add) {
+  Lanes s00{}, s01{}, s02{}, s10{}, s11{}, s12{}, s20{}, s21{}, s22{};
+  double *c1 = c + ldc, *c2 = c1 + ldc;
+  if (add) {
+    load(s00, c), load(s01, c + lanes), load(s02, c + 2 * lanes);
+    load(s10, c1), load(s11, c1 + lanes), load(s12, c1 + 2 * lanes);
+    load(s20, c2), load(s21, c2 + lanes), load(s22, c2 + 2 * lanes);
+  }
+  for (int k = 0; k < K; ++k, a += lda, b += lda) {
+    Lanes x, y, z;
+    load(x, a), load(y, a + lanes), load(z, a + 2 * lanes);
+    subtract_fused(s00, x, b[0]), subtract_fused(s01, y, b[0]), subtract_fused(s02, z, b[0]);
+    subtract_fused(s10, x, b[1]), subtract_fused(s11, y, b[1]), subtract_fused(s12, z, b[1]);
+    subtract_fused(s20, x, b[2]), subtract_fused(s21, y, b[2]), subtract_fused(s22, z, b[2]);
+  }
+  store(c, s00), store(c + lanes, s01), store(c + 2 * lanes, s02);
+  store(c1, s10), store(c1 + lanes, s11), store(c1 + 2 * lanes, s12);
+  store(c2, s20), store(c2 + lanes, s21), store(c2 + 2 * lanes, s22);
+}
+PIGMENT_INLINE void subtract_4_rows(double* c, int ldc, const double* a, const double* b, int lda, int K, bool add) {
+  Lanes s0{}, s1{}, s2{};
+  double *c1 = c + ldc, *c2 = c1 + ldc;
+  if (add) load(s0, c), load(s1, c1), load(s2, c2);
+  for (int k = 0; k < K; ++k, a += lda, b += lda) {
+    Lanes x;
+    load(x, a);
+    subtract_fused(s0, x, b[0]), subtract_fused(s1, x, b[1]), subtract_fused(s2, x, b[2]);
+  }
+  store(c, s0), store(c1, s1), store(c2, s2);
+}
+
+PIGMENT_INLINE void subtract_product(double* c, int ldc, int begin, int end, const double* a, const double* b, int lda, int K, bool add) {
+  int i = begin;
+  for (; i + 3 * lanes <= end; i += 3 * lanes) subtract_12_rows(c + i, ldc, a + i, b, lda, K, add);
+  for (; i < end; i += lanes) subtract_4_rows(c + i, ldc, a + i, b, lda, K, add);
+}
+
+// Columns j to j + 2 of a front, from which those before have been subtracted. The diagonal is left as its inverse.
+PIGMENT_INLINE bool factor_columns(double* v, int ld, int j) {
+  double *c0 = v + static_cast<std::size_t>(j) * ld, *c1 = c0 + ld, *c2 = c1 + ld;
+  const double d00 = c0[j], d10 = c0[j + 1], d20 = c0[j + 2];
+  if (!(d00 > 0)) return false;
+  const double i0 = 1 / std::sqrt(d00), l10 = d10 * i0, l20 = d20 * i0;
+  const double d11 = c1[j + 1] - l10 * l10;
+  if (!(d11 > 0)) return false;
+  const double i1 = 1 / std::sqrt(d11), l21 = (c1[j + 2] - l20 * l10) * i1;
+  const double d22 = c2[j + 2] - l20 * l20 - l21 * l21;
+  if (!(d22 > 0)) return false;
+  const double i2 = 1 / std::sqrt(d22);
+  if (!(i0 > 0 && i1 > 0 && i2 > 0)) return false;
+  for (int i = lane_start(j); i < ld; i += lanes) {
+    Lanes x, y, z;
+    load(x, c0 + i);
+    load(y, c1 + i);
+    load(z, c2 + i);
+    x *= i0;
+    y = (y - x * l10) * i1;
+    z = (z - x * l20 - y * l21) * i2;
+    store(c0 + i, x);
+    store(c1 + i, y);
+    store(c2 + i, z);
+  }
+  c0[j] = i0, c0[j + 1] = l10, c0[j + 2] = l20;
+  c1[j] = 0, c1[j + 1] = i1, c1[j + 2] = l21;
+  c2[j] = c2[j + 1] = 0, c2[j + 2] = i2;
+  return true;
+}
+
+namespace kernel {
+
+PIGMENT_INLINE void subtract_from_own(const Front& f, int begin, int end, int column) {
+  const auto rows = static_cast<std::size_t>(f.rows());
+  const double* panel = f.values + begin * rows;
+  subtract_product(f.values + column * rows, f.rows(), lane_start(column), f.rows(), panel, panel + column, f.rows(), end - begin, true);
+}
+PIGMENT_INLINE void subtract_from_below(const Front& f, int begin, int end, int column, bool add) {
+  const double* panel = f.values + static_cast<std::size_t>(begin) * f.rows() + f.own_rows();
+  subtract_product(f.update + static_cast<std::size_t>(column) * f.below_rows(), f.below_rows(), Front::first_row(column), f.below_rows(), panel, panel + column,
+                   f.rows(), end - begin, add || begin > 0);
+}
+PIGMENT_INLINE bool factor_panel(const Front& f, int begin, int end) {
+  for (int column = begin; column < end; column += B) {
+    kernel::subtract_from_own(f, begin, column, column);
+    if (!factor_columns(f.values, f.rows(), column)) return false;
+  }
+  return true;
+}
+PIGMENT_INLINE bool factor_front(const Front& f, bool add) {
+  for (int begin = 0; begin < f.own; begin += front_panel) {
+    const int end = std::min(begin + front_panel, f.own);
+    if (!kernel::factor_panel(f, begin, end)) return false;
+    for (int column = end; column < f.own; column += B) kernel::subtract_from_own(f, begin, end, column);
+    for (int column = 0; column < f.below; column += B) kernel::subtract_from_below(f, begin, end, column, add);
+  }
+  return true;
+}
+
+PIGMENT_INLINE void solve_forward(const Front& f, double* x, double* w) {
+  const int own = f.own_rows(), below = f.below_rows();
+  for (int i = 0; i < below; i += lanes) store(w + i, Lanes{});
+  for (int j = 0; j < f.own; j += B) {
+    const double *c0 = f.values + static_cast<std::size_t>(j) * f.rows(), *c1 = c0 + f.rows(), *c2 = c1 + f.rows();
+    const double x0 = x[j] * c0[j], x1 = (x[j + 1] - c0[j + 1] * x0) * c1[j + 1], x2 = (x[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) * c2[j + 2];
+    x[j] = x0, x[j + 1] = x1, x[j + 2] = x2;
+    for (int i = j + B; i < f.own; ++i) x[i] -= c0[i] * x0 + c1[i] * x1 + c2[i] * x2;
+    for (int i = 0; i < below; i += lanes) {
+      Lanes sum, a, b, c;
+      load(sum, w + i), load(a, c0 + own + i), load(b, c1 + own + i), load(c, c2 + own + i);
+      store(w + i, sum + (a * x0 + b * x1 + c * x2));
+    }
+  }
+}
+PIGMENT_INLINE void solve_backward(const Front& f, double* x, const double* w) {
+  const int own = f.own_rows(), below = f.below_rows();
+  for (int j = f.own - B; j >= 0; j -= B) {
+    const double *c0 = f.values + static_cast<std::size_t>(j) * f.rows(), *c1 = c0 + f.rows(), *c2 = c1 + f.rows();
+    Lanes s0{}, s1{}, s2{};
+    for (int i = 0; i < below; i += lanes) {
+      Lanes at, a, b, c;
+      load(at, w + i), load(a, c0 + own + i), load(b, c1 + own + i), load(c, c2 + own + i);
+      s0 += a * at, s1 += b * at, s2 += c * at;
+    }
+    double r0 = x[j] - sum_of(s0), r1 = x[j + 1] - sum_of(s1), r2 = x[j + 2] - sum_of(s2);
+    for (int i = j + B; i < f.own; ++i) r0 -= c0[i] * x[i], r1 -= c1[i] * x[i], r2 -= c2[i] * x[i];
+    x[j + 2] = r2 * c2[j + 2];
+    x[j + 1] = (r1 - c1[j + 2] * x[j + 2]) * c1[j + 1];
+    x[j] = (r0 - c0[j + 1] * x[j + 1] - c0[j + 2] * x[j + 2]) * c0[j];
+  }
+}
+
+PIGMENT_INLINE void add_rows(double* to, const double* from, int n) {
+  int i = 0;
+  for (; i + lanes <= n; i += lanes) {
+    Lanes v;
+    load(v, from + i);
+    add_to(to + i, v);
+  }
+  for (; i < n; ++i) to[i] += from[i];
+}
+
+}  // namespace kernel
+
+namespace wide {
+PIGMENT_WIDE bool factor_panel(const Front& f, int begin, int end) { return kernel::factor_panel(f, begin, end); }
+PIGMENT_WIDE void subtract_from_own(const Front& f, int begin, int end, int column) { kernel::subtract_from_own(f, begin, end, column); }
+PIGMENT_WIDE void subtract_from_below(const Front& f, int begin, int end, int column, bool add) { kernel::subtract_from_below(f, begin, end, column, add); }
+PIGMENT_WIDE bool factor_front(const Front& f, bool add) { return kernel::factor_front(f, add); }
+PIGMENT_WIDE void solve_forward(const Front& f, double* x, double* w) { kernel::solve_forward(f, x, w); }
+PIGMENT_WIDE void solve_backward(const Front& f, double* x, const double* w) { kernel::solve_backward(f, x, w); }
+PIGMENT_WIDE void add_rows(double* to, const double* from, int n) { kernel::add_rows(to, from, n); }
+}  // namespace wide
+
+}  // namespace
+
+bool factor_panel(const Front& f, int begin, int end) { return wide_processor() ? wide::factor_panel(f, begin, end) : kernel::factor_panel(f, begin, end); }
+void subtract_from_own(const Front& f, int begin, int end, int column) {
+  wide_processor() ? wide::subtract_from_own(f, begin, end, column) : kernel::subtract_from_own(f, begin, end, column);
+}
+void subtract_from_below(const Front& f, int begin, int end, int column, bool add) {
+  wide_processor() ? wide::subtract_from_below(f, begin, end, column, add) : kernel::subtract_from_below(f, begin, end, column, add);
+}
+bool factor_front(const Front& f, bool add) { return wide_processor() ? wide::factor_front(f, add) : kernel::factor_front(f, add); }
+void solve_forward(const Front& f, double* x, double* w) { wide_processor() ? wide::solve_forward(f, x, w) : kernel::solve_forward(f, x, w); }
+void solve_backward(const Front& f, double* x, const double* w) { wide_processor() ? wide::solve_backward(f, x, w) : kernel::solve_backward(f, x, w); }
+void add_rows(double* to, const double* from, int n) { wide_processor() ? wide::add_rows(to, from, n) : kernel::add_rows(to, from, n); }
+
+}  // namespace pigment::solve
