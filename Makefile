@@ -28,6 +28,7 @@ help:
 	@echo 'make studies         run all of them; one report of their claims and figures: $(BUILD)/studies/report.html'
 	@echo 'make studies-page    the same report from the studies that have been run so far'
 	@echo 'make claims          write docs/claims.md from the studies that have been run'
+	@echo 'make figures-NAME    write docs/studies/NAME.md, the figures of that study as it was run last'
 	@echo 'make cost            write docs/cost.md, what their runs took'
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make hindered-drag   measure what hindered drag changes in a draining layer, write docs/hindered-drag.md'
@@ -119,6 +120,10 @@ studies-page: build
 
 claims:
 	workflows/replace_if_changed.sh docs/claims.md /usr/bin/python3 workflows/claims_page.py '$(BUILD)/studies' $(JUDGED)
+
+# docs/studies/NAME.md: the verdicts and figures of a study's last run.
+figures-%:
+	/usr/bin/python3 workflows/figures_page.py '$(BUILD)/studies' $* docs
 
 # What the runs took beside what pigment-scene forecast, as docs/cost.md. Nothing else should have run beside them.
 cost:

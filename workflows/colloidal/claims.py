@@ -21,8 +21,9 @@ def seeds(settings):
 
 
 def one(settings, end=""):
-    name = f"{layer}-{settings}-s1{noise}{end}"
-    return runs[name] if name in runs else None
+    """The first packing's run, without Brownian motion where there is none with it; None: the study has neither."""
+    names = (f"{layer}-{settings}-s1{motion}{end}" for motion in (noise, ""))
+    return next((runs[name] for name in names if name in runs), None)
 
 
 def of_potential(p):
@@ -102,7 +103,7 @@ for band, name, source in ((0, "cake", 5), (2, "skin", 2)):
 thinner = [(k, one(f"k{k}-p25")) for k in ("10", "5", "2.5", "1", "0.5")]
 thinner = [(k, r) for k, r in thinner if r]
 gains = [r.bands(at(r, 0.2))[0] for _, r in thinner]
-study.claim("4.4", "Below 2.5 nm, which the source could not afford, the cake goes on to sharpen", "not in the source", "at the substrate at 0.2 s: " + ", ".join(f"{k} nm {g:.1f}" for (k, _), g in zip(thinner, gains)) + " wt-% (one packing)",
+study.claim("4.4", "Below 2.5 nm, which the source could not afford, the cake goes on to sharpen", "not in the source", "at the substrate at 0.2 s: " + ", ".join(f"{k} nm {g:.1f}" for (k, _), g in zip(thinner, gains)) + f" wt-% (one packing{'; 1 and 0.5 nm without Brownian motion' if noise else ''})",
             "more at 0.5 nm than at 2.5 nm by over 1 wt-%", None if thinner[-1][0] != "0.5" else bool(gains[-1] - gains[2] > 1),
             why="the layer is even by 0.2 s; at 0.1 s " + ", ".join(f"{k} nm {r.bands(at(r, 0.1))[0]:.1f}" for k, r in thinner) + ", so that what repulsion there is below 2.5 nm no longer holds particles apart")
 

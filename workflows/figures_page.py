@@ -1,0 +1,33 @@
+"""Writes docs/studies/STUDY.md and the figures it shows from a study that has been run: figures_page.py RESULTS STUDY DOCS."""
+import csv
+import html
+import pathlib
+import re
+import sys
+
+results, study, docs = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
+figures = sorted((results / study / "figures").glob("*.svg"))
+if not figures:
+    raise SystemExit(f"{results / study}: no figures; run make study-{study} first")
+size, *cases = (results / study / ".made" / "claims.settings").read_text().split()
+with open(results / study / "claims.csv", newline="", encoding="utf-8") as file:
+    claims = list(csv.DictReader(file))
+folder = docs / "images" / study
+folder.mkdir(parents=True, exist_ok=True)
+(docs / "studies").mkdir(exist_ok=True)
+for old in folder.glob("*.svg"):
+    old.unlink()
+
+readme = pathlib.Path(__file__).parent / study / "README.md"
+title, _, about = (readme.read_text(encoding="utf-8") if readme.exists() else f"# {study}\n").partition("\n")
+lines = [title, "", about.strip().split("\n\n")[0], "",
+         f"`make study-{study} SIZE={size}` ran what follows; `make figures-{study}` wrote this page from it. All claims with their evidence: "
+         f"[claims](../claims.md#{study}).", "",
+         "| § | claim | verdict |", "|---|---|---|"]
+lines += [f"| {row['section']} | {row['claim'].replace('|', chr(92) + '|')} | **{row['verdict']}** |" for row in claims]
+for path in figures:
+    text = path.read_text(encoding="utf-8")
+    (folder / path.name).write_text(text, encoding="utf-8")
+    caption = html.unescape(re.search(r"<title>(.*?)</title>", text, re.DOTALL)[1])
+    lines += ["", f"![{path.stem}](../images/{study}/{path.name})", "", f"*{caption}*"]
+(docs / "studies" / f"{study}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
