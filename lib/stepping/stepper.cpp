@@ -12,6 +12,9 @@ namespace {
 constexpr double shortest_step = 1e-9;  // ms
 // A step whose error is that many times what was asked for is taken again, shorter.
 constexpr double intolerable = 4;
+// A noisy step that failed is made in halves, and so are those that follow: in an uncharged layer three quarters of the time went into steps as
+// long as the noise allows, of which all failed. They grow back slowly, in 35 steps.
+constexpr double growth_after_failure = 1.02;
 // Every so many steps a layer that its bonds make stiff is tried without the solver's network.
 constexpr int look_again = 16;
 
@@ -39,8 +42,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
   const bool fixed = problem.stepping.time_step.has_value(), noisy = problem.interactions.brownian.has_value();
   const bool controlled = !fixed && !noisy;
   context_.refresh_list(state);
-  // Chosen before the noise is drawn, and never after: the temperature may have changed.
-  if (noisy && !fixed) state.preferred_step = noise_step(problem, context_.liquid_at_time(state.time));
+  // Chosen before the noise is drawn, and never after, by the temperature, which may have changed, and by what earlier steps came to.
+  if (noisy && !fixed) state.preferred_step = std::min(noise_step(problem, context_.liquid_at_time(state.time)), growth_after_failure * state.preferred_step);
   double dt = std::min(state.preferred_step, longest);
   if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
   StepReport report;
@@ -83,7 +86,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
     if (shorter < shortest_step || (fixed && integrator_->is_explicit()))
       throw NumericsError(context_.describe_failure(state, dt, attempt.last));
     dt = shorter;
-    if (controlled) state.preferred_step = dt;
+    if (!fixed) state.preferred_step = dt;
   }
 }
 

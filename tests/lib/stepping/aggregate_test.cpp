@@ -81,3 +81,29 @@ TEST(Aggregate, DoesNotOverlapAtLongFixedSteps) {
     EXPECT_NEAR(gap_of(state), minimum, 0.05 * minimum) << "step " << step;
   }
 }
+
+// A heap of attracting spheres shaken by noise: steps as long as the noise allows fail where bonds tear. The step that follows one that failed is
+// hardly longer than what came of it, before its own noise is drawn; and they grow back.
+TEST(Aggregate, NoisyStepsRememberThatLongOnesFailed) {
+  Pair heap = attracting_pair("{electrostatic: {debye_length: 10 nm}, van_der_waals: {hamaker_constant: 1e-20 J}, born: {}}", 0.01);
+  heap.position.clear();
+  heap.problem.particles = {};
+  for (int k = 0; k < 64; ++k)
+    test::add_particle(heap.problem, heap.position, 0.12, Vec3(50 + 0.2402 * (k % 4), 50 + 0.2402 * (k / 4 % 4) + 0.001 * (k % 3), 50 + 0.2402 * (k / 16)));
+  heap.problem.interactions.brownian = forces::BrownianParameters{};
+  heap.problem.interactions.brownian->model = forces::BrownianParameters::Model::KBrown;
+  stepping::RunState state = stepping::initial_state(heap.problem, heap.position);
+  stepping::Stepper stepper(heap.problem, state);
+  const double longest = stepping::Stepper::first_step(heap.problem);
+  int failed = 0, grown = 0;
+  double allowed = longest;
+  for (int step = 0; step < 150; ++step) {
+    const stepping::StepReport report = stepper.advance(state, 1e3);
+    EXPECT_LE(report.step, allowed * (1 + 1e-12));
+    failed += report.rejected > 0;
+    grown += report.rejected == 0 && report.step > 1.01 * allowed / 1.02 && allowed < longest;
+    allowed = std::min(longest, 1.02 * report.step);
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_GT(grown, 0);
+}
