@@ -3,12 +3,14 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
+#include <Eigen/SparseCholesky>
 #include <memory>
 
 #include "assembly/step_assembly.h"
 #include "base/random.h"
 #include "bench/assembled_product.h"
 #include "bench/wide_mixture.h"
+#include "solve/block_cholesky.h"
 #include "solve/conjugate_gradients.h"
 #include "solve/pair_product.h"
 
@@ -161,6 +163,62 @@ void solve_warm(benchmark::State& state) {
   state.counters["iterations"] = report.iterations;
 }
 
+// What the preconditioner of bonded layers factorises: each particle's drag and the squeeze of the pairs whose is larger, by our factor and by
+// Eigen's on the same matrix (its own order of least fill).
+struct Network {
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  std::vector<double> diagonal, between;  // 9 numbers a particle, a pair
+};
+Network network_of(const Case& c) {
+  Network n;
+  n.diagonal.assign(9 * c.force.size(), 0.0);
+  for (std::size_t k = 0; k < c.force.size(); ++k)
+    for (int d = 0; d < 3; ++d) n.diagonal[9 * k + 4 * d] = c.system.particle[k].across;
+  for (const auto& chunk : c.system.full)
+    for (const auto& p : chunk) {
+      if (p.squeeze < std::min(c.system.particle[p.i].across, c.system.particle[p.j].across)) continue;
+      n.pairs.emplace_back(p.i, p.j);
+      for (int r = 0; r < 3; ++r)
+        for (int s = 0; s < 3; ++s) {
+          const double value = p.squeeze * p.n[r] * p.n[s];
+          n.diagonal[9 * static_cast<std::size_t>(p.i) + 3 * r + s] += value;
+          n.diagonal[9 * static_cast<std::size_t>(p.j) + 3 * r + s] += value;
+          n.between.push_back(-value);
+        }
+    }
+  return n;
+}
+void network_factor(benchmark::State& state) {
+  const Case& c = resistance_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  omp_set_num_threads(static_cast<int>(state.range(2)));
+  const Network n = network_of(c);
+  solve::BlockCholesky factor;
+  factor.analyze(static_cast<int>(c.force.size()), n.pairs);
+  std::vector<double> diagonal(n.diagonal.size());
+  for (std::size_t k = 0; k < c.force.size(); ++k) std::copy_n(&n.diagonal[9 * k], 9, &diagonal[9 * static_cast<std::size_t>(factor.place()[k])]);
+  for (auto _ : state)
+    if (!factor.factorize(diagonal, n.between)) state.SkipWithError("not positive definite");
+  state.counters["pairs"] = static_cast<double>(n.pairs.size());
+  omp_set_num_threads(omp_get_num_procs());
+}
+void network_factor_by_eigen(benchmark::State& state) {
+  const Case& c = resistance_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const Network n = network_of(c);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t q = 0; q < n.diagonal.size(); ++q) entries.emplace_back(q / 9 * 3 + q % 9 / 3, q / 9 * 3 + q % 3, n.diagonal[q]);
+  for (std::size_t q = 0; q < n.between.size(); ++q) {
+    const int row = 3 * n.pairs[q / 9].second + static_cast<int>(q % 9 / 3), column = 3 * n.pairs[q / 9].first + static_cast<int>(q % 3);
+    entries.emplace_back(row, column, n.between[q]);
+    entries.emplace_back(column, row, n.between[q]);
+  }
+  const auto size = static_cast<Eigen::Index>(n.diagonal.size() / 3);
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor;
+  factor.analyzePattern(matrix);
+  for (auto _ : state) factor.factorize(matrix);
+}
+
 void sizes(benchmark::internal::Benchmark* b) {
   for (int particles : {1000, 10000, 100000})
     for (int percent : {41, 60}) b->Args({particles, percent});
@@ -176,6 +234,8 @@ BENCHMARK(assembly_of_a_step)->ArgNames({"particles", "vol%"})->Apply(sizes)->Un
 BENCHMARK(product)->ArgNames({"particles", "vol%", "threads"})->Apply(sizes_and<1, 2>)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(product_in_cache)->ArgNames({"particles", "vol%"})->Args({10000, 41})->Args({10000, 60})->Unit(benchmark::kMicrosecond)->UseRealTime();
 BENCHMARK(assembled_product)->ArgNames({"particles", "vol%", "threads"})->Apply(sizes_and<1, 2>)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(network_factor)->ArgNames({"particles", "vol%", "threads"})->Args({10000, 60, 1})->Args({10000, 60, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(network_factor_by_eigen)->ArgNames({"particles", "vol%"})->Args({10000, 60})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(solve_cold)->ArgNames({"particles", "vol%", "digits"})->Apply(sizes_and<3, 6>)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(solve_warm)->ArgNames({"particles", "vol%", "digits"})->Apply(sizes_and<3, 6>)->Unit(benchmark::kMillisecond)->UseRealTime();
 
