@@ -1,5 +1,7 @@
 #include "solve/block_cholesky.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -219,12 +221,14 @@ bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& di
 
 bool BlockCholesky::factorize(const std::vector<double>& diagonal, const std::vector<double>& between) {
   bool good = true;
+  // Here, since nothing may be thrown out of a parallel region.
+  const auto all_work = std::make_unique_for_overwrite<double[]>(largest_update_ * static_cast<std::size_t>(omp_get_max_threads()));
 #pragma omp parallel
   {
-    const auto work = std::make_unique_for_overwrite<double[]>(largest_update_);
+    double* work = all_work.get() + largest_update_ * static_cast<std::size_t>(omp_get_thread_num());
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t q = 0; q < parts_.size(); ++q)
-      if (!factor_part(parts_by_work_[q], diagonal, between, work.get())) {
+      if (!factor_part(parts_by_work_[q], diagonal, between, work)) {
 #pragma omp atomic write
         good = false;
       }
@@ -253,7 +257,7 @@ bool BlockCholesky::factorize(const std::vector<double>& diagonal, const std::ve
 void BlockCholesky::forward(std::int32_t k, double* x, double* to_top, double* work) const {
   const Front f = front(k, nullptr);
   solve_forward(f, x + B * static_cast<std::size_t>(tree_.supernodes[k].first), work);
-  const std::int32_t* target = &target_[tree_.supernodes[k].rows_begin];
+  const std::int32_t* target = target_.data() + tree_.supernodes[k].rows_begin;
   for (int row = 0; row < f.below; row += B, ++target) {
     double* to = *target >= 0 ? x + *target : to_top - (*target + 1);
     for (int d = 0; d < B; ++d) to[d] -= work[row + d];
@@ -262,7 +266,7 @@ void BlockCholesky::forward(std::int32_t k, double* x, double* to_top, double* w
 
 void BlockCholesky::backward(std::int32_t k, double* x, double* work) const {
   const Front f = front(k, nullptr);
-  const std::int32_t* node = &tree_.row[tree_.supernodes[k].rows_begin];
+  const std::int32_t* node = tree_.row.data() + tree_.supernodes[k].rows_begin;
   for (int row = 0; row < f.below; row += B, ++node) std::copy_n(x + B * static_cast<std::size_t>(*node), B, work + row);
   std::fill(work + f.below, work + f.below_rows(), 0.0);
   solve_backward(f, x + B * static_cast<std::size_t>(tree_.supernodes[k].first), work);

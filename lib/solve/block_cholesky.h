@@ -16,7 +16,7 @@ namespace pigment::solve {
 
 class BlockCholesky {
  public:
-  // Which different nodes have a block between them, each pair once. False where memory is short.
+  // Which different nodes have a block between them, each pair once. False where memory is short; std::bad_alloc too, here and from factorize.
   bool analyze(int nodes, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
   // Where each node stands in the order of elimination.
   const std::vector<std::int32_t>& place() const { return tree_.place; }

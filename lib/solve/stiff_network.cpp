@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <new>
 #include <tuple>
 #include <utility>
 
@@ -199,15 +200,18 @@ int StiffNetwork::changed(const PairSystem& system, double times) const {
 std::string StiffNetwork::factorize(const PairSystem& system) {
   const auto missing = [&](const auto& p, const KnownPair* known) { return (!known || known->stiff < 0) && is_stiff(system, p, p.squeeze); };
   const bool anew = !ready() || count_pairs(system, data_->known, missing) > most_missing;
-  if (anew) data_ = std::make_unique<Data>();
-  if (anew && !data_->choose_pairs(system)) {
-    data_.reset();
-    return "out of memory";
+  std::string refusal;
+  try {
+    if (anew) data_ = std::make_unique<Data>();
+    if (anew && !data_->choose_pairs(system))
+      refusal = "out of memory";
+    else if (data_->know_pairs(system); !data_->factorize(system))
+      refusal = "the matrix is not positive definite";
+  } catch (const std::bad_alloc&) {
+    refusal = "out of memory";
   }
-  data_->know_pairs(system);
-  if (data_->factorize(system)) return "";
-  data_.reset();
-  return "the matrix is not positive definite";
+  if (!refusal.empty()) data_.reset();
+  return refusal;
 }
 
 // b = r_u - A_uw A_ww^-1 r_w
