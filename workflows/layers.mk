@@ -79,8 +79,9 @@ told = $(patsubst u%,%,$(filter u%,$(call parts,$(1))))
 strategy_of = $(if $(table),e-$(word 2,$(parts)),$(firstword $(parts)))
 quick_end = $(if $(full),,$(or $(if $(filter p0,$(parts)),0.1),$(if $(filter 20um,$(parts)),0.12),$(if $(filter b h80 a10 thesis n3 w8,$(parts))$(and $(filter k%,$(parts)),$(filter hll,$(parts))),0.2),\
   $(if $(filter 10um,$(parts)),$(until-10um-$(strategy_of))),$(and $(filter k%,$(parts)),$(filter llh,$(parts)),$(until-llh-k)),$(and $(filter eva,$(parts)),$(filter s1,$(parts)),$(until-eva-rest)),$(until-$(strategy_of))))
-# A full run of layers in which every pair becomes a contact, or comes nearer than a nanometre, ends after the last time that a claim asks for too.
-full_end = $(if $(filter p0 p5 k1 k0.5,$(parts)),0.205)
+# Full runs end after the last time that a claim asks for where they are dear (every pair becomes a contact, or comes nearer than a nanometre; a
+# piece sixteen times as large), or made for comparison there alone (other rates, resistances, tolerance).
+full_end = $(if $(filter p0 p5 k1 k0.5 w20 h80 a10 thesis n3,$(parts)),0.205)
 until = $(or $(call told,$(1)),$(if $(full),$(full_end),$(call quick_end,$(1))),0.8) s
 # $(call layers,CASES): what each changes and lacks. To be called before ../rules.mk is read.
 define layer_case
