@@ -9,9 +9,13 @@ results, study, docs = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.
 figures = sorted((results / study / "figures").glob("*.svg"))
 if not figures:
     raise SystemExit(f"{results / study}: no figures; run make study-{study} first")
-size, *cases = (results / study / ".made" / "claims.settings").read_text().split()
+size, *settings = (results / study / ".made" / "claims.settings").read_text().split()
+cases = [name for name in settings if (results / study / name / "scene.yaml").exists()]
 with open(results / study / "claims.csv", newline="", encoding="utf-8") as file:
     claims = list(csv.DictReader(file))
+# Which random packings, where cases name theirs.
+seeds = sorted({m[1] for case in cases if (m := re.search(r"-s(\d+)(?:-|$)", case))})
+packings = f' SEEDS="{" ".join(seeds)}"' if seeds else ""
 folder = docs / "images" / study
 folder.mkdir(parents=True, exist_ok=True)
 (docs / "studies").mkdir(exist_ok=True)
@@ -21,8 +25,8 @@ for old in folder.glob("*.svg"):
 readme = pathlib.Path(__file__).parent / study / "README.md"
 title, _, about = (readme.read_text(encoding="utf-8") if readme.exists() else f"# {study}\n").partition("\n")
 lines = [title, "", about.strip().split("\n\n")[0], "",
-         f"`make study-{study} SIZE={size}` ran what follows; `make figures-{study}` wrote this page from it. All claims with their evidence: "
-         f"[claims](../claims.md#{study}).", "",
+         f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page. The same claims with their "
+         f"evidence, as they were decided last: [claims](../claims.md#{study}).", "",
          "| § | claim | verdict |", "|---|---|---|"]
 lines += [f"| {row['section']} | {row['claim'].replace('|', chr(92) + '|')} | **{row['verdict']}** |" for row in claims]
 for path in figures:
