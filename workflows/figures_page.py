@@ -25,10 +25,10 @@ for old in folder.glob("*.svg"):
 readme = pathlib.Path(__file__).parent / study / "README.md"
 title, _, about = (readme.read_text(encoding="utf-8") if readme.exists() else f"# {study}\n").partition("\n")
 lines = [title, "", about.strip().split("\n\n")[0], "",
-         f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page. The same claims with their "
-         f"evidence, as they were decided last: [claims](../claims.md#{study}).", "",
-         "| § | claim | verdict |", "|---|---|---|"]
-lines += [f"| {row['section']} | {row['claim'].replace('|', chr(92) + '|')} | **{row['verdict']}** |" for row in claims]
+         f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page. "
+         f"[All claims](../claims.md#{study}), from runs of either size.", "",
+         "| § | claim | ours | decided by | verdict |", "|---|---|---|---|---|"]
+lines += ["| " + " | ".join(row[c].replace("|", "\\|") for c in ("section", "claim", "ours", "decided_by")) + f" | **{row['verdict']}** |" for row in claims]
 for path in figures:
     text = path.read_text(encoding="utf-8")
     (folder / path.name).write_text(text, encoding="utf-8")
