@@ -27,6 +27,7 @@ title, _, about = (readme.read_text(encoding="utf-8") if readme.exists() else f"
 lines = [title, "", about.strip().split("\n\n")[0], "",
          f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page. "
          f"[All claims](../claims.md#{study}), from runs of either size.", "",
+         "<details><summary>The cases that ran</summary>", "", ", ".join(cases), "", "</details>", "",
          "| § | claim | ours | decided by | verdict |", "|---|---|---|---|---|"]
 lines += ["| " + " | ".join(row[c].replace("|", "\\|") for c in ("section", "claim", "ours", "decided_by")) + f" | **{row['verdict']}** |" for row in claims]
 for path in figures:

@@ -99,7 +99,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       for (std::size_t q = begin; q < end; ++q) sum += x[q] * (r[q] + p[q]);
       partial_energy[c] = sum;
     }
-    if (options.scale == 0) precondition(partial_bb);
+    precondition(partial_bb);
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) std::copy(p.begin() + begin_of(c) * S, p.begin() + begin_of(c + 1) * S, r.begin() + begin_of(c) * S);
     precondition(partial_rz);
@@ -107,7 +107,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     for (int c = 0; c < count; ++c) std::copy(z.begin() + begin_of(c) * S, z.begin() + begin_of(c + 1) * S, p.begin() + begin_of(c) * S);
 #pragma omp single
     {
-      bb = options.scale > 0 ? options.scale : sum_of(partial_bb);
+      bb = std::min(sum_of(partial_bb), options.largest_scale);
       rz = sum_of(partial_rz);
       target = options.tolerance * options.tolerance * bb;
       energy = sum_of(partial_energy);

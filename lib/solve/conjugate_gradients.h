@@ -1,6 +1,7 @@
 #pragma once
 // Preconditioned conjugate gradients on a PairSystem; preconditioned by block Jacobi, or by the factor of a stiff network made of
 // the same system or a similar one. Same bytes at any number of threads.
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,16 +14,15 @@ struct SolveReport {
   bool converged = false;
   int iterations = 0;
   double residual = -1;  // sqrt(r M^-1 r / scale); the error's energy e A e is looked at as well
-  double scale = 0;      // b M^-1 b, b with what held particles contribute; or the scale given
+  double scale = 0;      // b M^-1 b, b with what held particles contribute; or the largest scale asked for, if that is smaller
   std::string message;
 };
 
 struct ConjugateGradientOptions {
   double tolerance = 1e-6;   // on the residual above
   int max_iterations = 2000;
-  // What to measure the residual by; 0: b M^-1 b of this system. Newton's method adds large forces that nearly cancel: their size must not
-  // loosen the solve.
-  double scale = 0;
+  // Newton's method adds large forces that nearly cancel: their size must not loosen the solve.
+  double largest_scale = std::numeric_limits<double>::infinity();
 };
 
 // x: in, the starting guess (empty: zero); out, the solution. An unconverged or non-finite solve is a report, not an error.

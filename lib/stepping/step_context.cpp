@@ -238,7 +238,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   for (int pass = 0; pass < most; ++pass) {
     assembly_->build(system_);
     s.solve = solver_.solve(system_, s.velocity, sketch && pass == 0 ? rough : options);
-    if (s.solves == 0) options.scale = s.solve.scale;
+    if (s.solves == 0) options.largest_scale = s.solve.scale;
     s.iterations += s.solve.iterations;
     ++s.solves;
     if (!s.solve.converged) return s;
