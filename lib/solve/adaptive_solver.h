@@ -2,8 +2,10 @@
 // Conjugate gradients, preconditioned by block Jacobi while that is quick and by the factor of the stiff network where it is not.
 //
 // A solve that block Jacobi does not finish in `patience` iterations goes on with a network made of its own matrix. That network serves
-// the solves that follow within the step, whose matrices differ by what Newton's method learnt, and is made anew where it no longer fits.
-// Nothing but whether there was one is carried from step to step.
+// the solves that follow within the step, whose matrices differ by what Newton's method learnt, while it fits. Whether it is made anew then,
+// or block Jacobi tried again, is a matter of what they cost: in a layer that bonds make stiff block Jacobi fails at most solves and few pairs
+// are stiff; in a jam of charged particles one pass of Newton's method may go astray, and most pairs are.
+// Nothing but that decision is carried from step to step.
 #include <vector>
 
 #include "solve/conjugate_gradients.h"
@@ -13,20 +15,23 @@ namespace pigment::solve {
 
 class AdaptiveSolver {
  public:
-  // stiff: whether the last step ended with a network; this one begins with its own then.
+  // stiff: what is_stiff() said at the last step's end; this one uses networks alone then.
   void begin_step(bool stiff) {
     network_.forget();
     stiff_ = stiff;
     refused_ = false;
+    jacobi_iterations_ = jacobi_solves_ = 0;
   }
   SolveReport solve(const PairSystem&, std::vector<double>& x, const ConjugateGradientOptions&);
   bool has_network() const { return network_.ready(); }
+  bool is_stiff() const { return stiff_ && network_.ready(); }
 
  private:
   void make(const PairSystem&);
 
   StiffNetwork network_;
   bool stiff_ = false;
+  int jacobi_iterations_ = 0, jacobi_solves_ = 0;  // of this step, finished or not
   bool refused_ = false;  // no factor was to be had (memory): block Jacobi does what is left of the step
 };
 

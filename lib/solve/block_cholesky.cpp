@@ -94,16 +94,15 @@ void BlockCholesky::divide() {
   const auto count = static_cast<std::int32_t>(places_.size());
   std::vector<double> work(count);  // of the subtree
   std::vector<std::size_t> size(count);
-  double all = 0;
   for (std::int32_t k = 0; k < count; ++k) {
     const Front f = front(k, nullptr);
     const double rows = f.rows(), own = overhead + f.own * rows * rows;
     size[k] = static_cast<std::size_t>(f.below) * f.below_rows();
     work[k] += own;
-    all += own;
+    work_ += own;
     if (tree_.supernodes[k].parent >= 0) work[tree_.supernodes[k].parent] += work[k];
   }
-  const double share = part_share * all;
+  const double share = part_share * work_;
   std::vector<std::int32_t> top_unknown(tree_.place.size(), -1);
   Part part{};
   std::size_t used = 0;

@@ -20,6 +20,8 @@ class BlockCholesky {
   bool analyze(int nodes, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
   // Where each node stands in the order of elimination.
   const std::vector<std::int32_t>& place() const { return tree_.place; }
+  // Of factorize, in multiply-adds, about.
+  double work() const { return work_; }
   // diagonal: 9 numbers for each place; between: 9 for each of the pairs, row by row, rows of its second node, columns of its first.
   // False where a pivot is not positive.
   bool factorize(const std::vector<double>& diagonal, const std::vector<double>& between);
@@ -60,6 +62,7 @@ class BlockCholesky {
   bool has_children(std::int32_t supernode) const { return places_[supernode].children_begin < places_[supernode].children_end; }
 
   EliminationTree tree_;
+  double work_ = 0;
   std::vector<Place> places_;
   // Of each row below a supernode: the row of its parent's front, and the unknown of x that it adds to; that of the top counted from -1 down.
   std::vector<std::int32_t> row_in_parent_, target_;

@@ -36,6 +36,7 @@ class PairTopology {
   PairTopology(std::size_t particles, const std::vector<std::int32_t>& pair_i, const std::vector<std::int32_t>& pair_j);
   std::size_t particles() const { return particles_; }
   const Chunks& chunks() const { return chunks_; }
+  std::size_t pairs() const { return target_.size(); }
   std::int32_t target(std::size_t pair) const { return target_[pair]; }
   std::size_t pair_begin(int chunk) const { return pair_begin_[chunk]; }  // pairs owned by a chunk
   // Where the halo begins in arrays that hold it behind the particles: at a full four.

@@ -186,6 +186,7 @@ StiffNetwork::~StiffNetwork() = default;
 StiffNetwork::StiffNetwork(StiffNetwork&&) noexcept = default;
 StiffNetwork& StiffNetwork::operator=(StiffNetwork&&) noexcept = default;
 bool StiffNetwork::ready() const { return data_ != nullptr; }
+double StiffNetwork::work() const { return data_->factor.work(); }
 void StiffNetwork::forget() { data_.reset(); }
 
 int StiffNetwork::changed(const PairSystem& system, double times) const {

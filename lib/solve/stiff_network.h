@@ -24,6 +24,8 @@ class StiffNetwork {
   // Empty on success, else why not (not positive definite, out of memory).
   std::string factorize(const PairSystem&);
   bool ready() const;
+  // Of factorize, in multiply-adds, about; of a network that is ready.
+  double work() const;
   // How many pairs, stiff then or now, have a squeeze more than so many `times` larger or smaller than the factor has it, and how many
   // particles the surface holds or lets go since. The system has the factor's topology.
   int changed(const PairSystem&, double times) const;

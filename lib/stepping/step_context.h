@@ -90,7 +90,7 @@ class StepContext {
 
   // Whether solves are to begin with the solver's network of stiff pairs, and whether the last one had it (solve/adaptive_solver.h).
   void expect_stiff(bool stiff) { stiff_ = stiff; }
-  bool was_stiff() const { return solver_.has_network(); }
+  bool was_stiff() const { return solver_.is_stiff(); }
 
   // Why a step of this length failed: step, time, pair, radii, gap, force and a step that would do.
   std::string describe_failure(const RunState&, double dt, const StepSolution&) const;

@@ -19,14 +19,8 @@ struct Chain {
   std::vector<double> exact;
 };
 
-void make(Chain& chain, int n, bool rotation, double drag, unsigned seed, double stiffness = 1) {
-  std::vector<std::int32_t> i, j;
-  for (int k = 0; k < n; ++k)
-    for (int step : {1, 2})
-      if (k + step < n) {
-        i.push_back(k);
-        j.push_back(k + step);
-      }
+void make_of(Chain& chain, int n, const std::vector<std::int32_t>& i, const std::vector<std::int32_t>& j, bool rotation, double drag, unsigned seed,
+             double stiffness) {
   chain.topology = PairTopology(n, i, j);
   PairSystem& s = chain.system;
   s.rotation = rotation;
@@ -53,6 +47,33 @@ void make(Chain& chain, int n, bool rotation, double drag, unsigned seed, double
   chain.exact.resize(static_cast<std::size_t>(n) * D);
   for (std::size_t q = 0; q < chain.exact.size(); ++q) chain.exact[q] = std::cos(2e-3 * static_cast<double>(q)) + 0.1 * normal(random);
   apply(s, chain.exact, s.right_hand_side);
+}
+
+void make(Chain& chain, int n, bool rotation, double drag, unsigned seed, double stiffness = 1) {
+  std::vector<std::int32_t> i, j;
+  for (int k = 0; k < n; ++k)
+    for (int step : {1, 2})
+      if (k + step < n) {
+        i.push_back(k);
+        j.push_back(k + step);
+      }
+  make_of(chain, n, i, j, rotation, drag, seed, stiffness);
+}
+
+// A cube of so many particles an edge, each bound to those at its faces, edges and corners.
+void make_jam(Chain& jam, int edge, double drag, double stiffness) {
+  std::vector<std::int32_t> i, j;
+  const auto inside = [edge](int c) { return c >= 0 && c < edge; };
+  for (int k = 0; k < edge * edge * edge; ++k)
+    for (int dz : {0, 1})
+      for (int dy : {-1, 0, 1})
+        for (int dx : {-1, 0, 1}) {
+          const int x = k % edge + dx, y = k / edge % edge + dy, z = k / (edge * edge) + dz, other = x + edge * (y + edge * z);
+          if (other <= k || !inside(x) || !inside(y) || !inside(z)) continue;
+          i.push_back(k);
+          j.push_back(other);
+        }
+  make_of(jam, edge * edge * edge, i, j, true, drag, 5, stiffness);
 }
 
 // Ties some particles to the rest frame, as contacts with a tilted wall do.
@@ -148,6 +169,35 @@ TEST(AdaptiveSolver, TakesNoNetworkWhereBlockJacobiIsQuick) {
   EXPECT_TRUE(solver.solve(chain.system, x, options).converged);
   EXPECT_LT(error(x, chain.exact), 1e-8);
   EXPECT_FALSE(solver.has_network());
+}
+
+// Whether the solves that follow begin with networks of their own is a matter of what those cost.
+TEST(AdaptiveSolver, OneSolveGoneAstrayMakesAChainStiffAndNoJam) {
+  Chain chain, jam, easy;
+  make(chain, 2000, true, 1e-5, 1);
+  make_jam(jam, 12, 1e-4, 1);
+  make_jam(easy, 12, 1, 12);
+  easy.system.topology = &jam.topology;
+  std::vector<double> x;
+  AdaptiveSolver solver;
+  solver.begin_step(false);
+  EXPECT_TRUE(solver.solve(chain.system, x, options).converged);
+  EXPECT_TRUE(solver.is_stiff());
+  x.clear();
+  solver.begin_step(false);
+  EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
+  EXPECT_TRUE(solver.has_network()) << "the example is too easy";
+  EXPECT_FALSE(solver.is_stiff());
+  EXPECT_LT(error(x, jam.exact), 1e-5);
+  x.clear();
+  EXPECT_TRUE(solver.solve(easy.system, x, {1e-4, 20000}).converged);
+  EXPECT_FALSE(solver.has_network()) << "it does not fit the easy one";
+  EXPECT_LT(error(x, easy.exact), 1e-2);
+  // A layer that was stiff at the last step's end begins with a network, whatever it costs.
+  x.clear();
+  solver.begin_step(true);
+  EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
+  EXPECT_TRUE(solver.is_stiff());
 }
 
 // What a solver did in steps before leaves no trace, nor does the number of threads: a resumed run has neither.
