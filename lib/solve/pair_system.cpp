@@ -10,7 +10,7 @@ namespace pigment::solve {
 
 PairTopology::PairTopology(std::size_t particles, const std::vector<std::int32_t>& pair_i,
                            const std::vector<std::int32_t>& pair_j)
-    : particles_(particles), chunks_(make_chunks(particles)), target_(pair_i.size()) {
+    : particles_(particles), chunks_(make_chunks(particles, pair_i)), target_(pair_i.size()) {
   const int count = chunks_.count();
   pair_begin_.assign(count + 1, pair_i.size());
   halo_begin_.assign(count + 1, 0);
