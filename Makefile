@@ -33,7 +33,7 @@ help:
 	@echo 'make $(BUILD)/studies/STUDY/CASE/FILE.h5   run one up to this file'
 	@echo 'make hindered-drag   measure what hindered drag changes in a draining layer, write docs/hindered-drag.md'
 	@echo 'make brownian        errors of Brownian motion against the step (study-brownian), write docs/brownian.md'
-	@echo 'make brownian-cost   what long runs with the full noise cost, into $(BUILD)/brownian-cost.md; PART=0.02 measures a part'
+	@echo 'make brownian-cost   what long runs with the full noise cost, into $(BUILD)/brownian-cost.md; PART=0.02 measures a part, ROWS="thousand long-coarse" some'
 	@echo 'make accuracy        measure errors and cost of the resistance models, write docs/accuracy.md'
 	@echo 'make install         into $$DESTDIR$$PREFIX (PREFIX=$(PREFIX)); run as the user who built'
 	@echo 'make deb             a Debian package of the same, in $(BUILD)'
@@ -82,8 +82,9 @@ brownian: study-brownian
 
 # Wall time of long runs with the full noise. Nothing else should run beside it.
 PART ?= 1
+ROWS ?= all
 brownian-cost: build
-	workflows/brownian/cost.sh '$(abspath $(BUILD))/bin' '$(BUILD)/brownian-cost' '$(PART)' | tee '$(BUILD)/brownian-cost.md'
+	workflows/brownian/cost.sh '$(abspath $(BUILD))/bin' '$(BUILD)/brownian-cost' '$(PART)' '$(ROWS)' | tee '$(BUILD)/brownian-cost.md'
 
 # Errors of the resistance models (study-hydrodynamics) and what a pair costs, as docs/accuracy.md. Nothing else should run beside it.
 accuracy: study-hydrodynamics
