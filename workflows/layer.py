@@ -101,6 +101,9 @@ class Sample:
     def text(self, digits=1):
         return f"{self.mean:.{digits}f}" + (f" ± {self.error:.{digits}f}" if self.n > 1 else "")
 
+    def percent(self):
+        return f"{100 * self.mean:+.2f}" + (f" ± {100 * self.error:.2f}" if self.n > 1 else "") + " %"
+
 
 def both(*verdicts):
     """All hold: True; one does not: False; else None."""

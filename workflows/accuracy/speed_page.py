@@ -24,7 +24,7 @@ print(f"""# Speed and error
 
 `make speed` measures what stands here and writes this page (`SIZE={size}`); run it with nothing else running. One thread.
 
-{layer[0].upper() + layer[1:]}, HLL, without Brownian motion, packed in {packing['seconds']:.1f} s. Each row changes one thing from the default; INTEGRATOR-TOLERANCE changes the
+{layer[0].upper() + layer[1:]}, HLL, without Brownian motion, packed in {packing['seconds']:.2g} s. Each row changes one thing from the default; INTEGRATOR-TOLERANCE changes the
 integrator and its tolerance. Errors are against the run `reference`: extrapolated, at a tight tolerance and a solver tolerance of 1e-8.
 
 | run | steps | CPU time, s | displacement after 10 ms, rms | median | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |

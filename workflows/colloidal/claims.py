@@ -47,7 +47,7 @@ if LOW:
                 for i in PACKINGS]
     s = Sample(relative)
     study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed",
-                "height below which 99 % of the solids lie at 0.2 s: " + ", ".join(f"{p} mV {mean_um(p).text(2)} um" for p in at_time(0.2)) + f"; mean of {', '.join(map(str, LOW))} mV over 25 and 50 mV {100 * s.mean:+.2f} ± {100 * s.error:.2f} %",
+                "height below which 99 % of the solids lie at 0.2 s: " + ", ".join(f"{p} mV {mean_um(p).text(2)} um" for p in at_time(0.2)) + f"; mean of {', '.join(map(str, LOW))} mV over 25 and 50 mV {s.percent()}",
                 f"more than {100 * WITHIN:g} % ({STUDENT})", s.above(WITHIN))
 else:
     study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed", DEAR,
@@ -93,7 +93,7 @@ def double_layer(k):
 
 
 s = Sample(a.z99[at(a, 0.2)] / b.z99[at(b, 0.2)] - 1 for a, b in zip(double_layer("2.5"), double_layer(10)))
-study.claim("4.4", "The double layer hardly changes the thickness", "text with Fig. 41", f"z99 at 0.2 s, 2.5 nm over 10 nm: {100 * s.mean:+.2f} ± {100 * s.error:.2f} %", f"by less than 2 % ({STUDENT}); the surface's height is imposed", both(s.below(0.02), s.above(-0.02)))
+study.claim("4.4", "The double layer hardly changes the thickness", "text with Fig. 41", f"z99 at 0.2 s, 2.5 nm over 10 nm: {s.percent()}", f"by less than 2 % ({STUDENT}); the surface's height is imposed", both(s.below(0.02), s.above(-0.02)))
 for band, name, source in ((0, "cake", 5), (2, "skin", 2)):
     s = Sample((a.bands(at(a, 0.2)) - b.bands(at(b, 0.2)))[band] for a, b in zip(double_layer("2.5"), double_layer(10)))
     early = Sample((a.bands(at(a, 0.1)) - b.bands(at(b, 0.1)))[band] for a, b in zip(double_layer("2.5"), double_layer(10)))
