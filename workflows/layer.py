@@ -101,8 +101,8 @@ class Sample:
     def text(self, digits=1):
         return f"{self.mean:.{digits}f}" + (f" ± {self.error:.{digits}f}" if self.n > 1 else "")
 
-    def percent(self):
-        return f"{100 * self.mean:+.2f}" + (f" ± {100 * self.error:.2f}" if self.n > 1 else "") + " %"
+    def percent(self, digits=2):
+        return f"{100 * self.mean:+.{digits}f}" + (f" ± {100 * self.error:.{digits}f}" if self.n > 1 else "") + " %"
 
 
 def both(*verdicts):

@@ -107,26 +107,26 @@ study.claim("4.2", "Gradients even out before the layer is immobile", "text with
 density = lambda band: lambda run: float(np.mean([run.fine_density(k)[band] for k in range(run.frame(0.14), run.frame(0.18) + 1)]))    # noqa: E731
 share = lambda band: lambda run: float(np.mean([run.fine_solids(k)[band] for k in range(run.frame(0.14), run.frame(0.18) + 1)]))       # noqa: E731
 s = sample("abs", thick, density(0))
-study.claim("4.2", "The number of 250 nm particles peaks in the cake where liquid is absorbed", "Fig. 27", f"ABS: {100 * s.mean:.0f} ± {100 * s.error:.0f} % more at the substrate than in the middle",
+study.claim("4.2", "The number of 250 nm particles peaks in the cake where liquid is absorbed", "Fig. 27", f"ABS: {s.percent(0)} more at the substrate than in the middle",
             f"diameters up to 300 nm, particles a height, beyond the packing's own profile, mean of 0.14 to 0.18 s, above 0 ({STUDENT})", s.above(),
             why="what peak there is, is smaller than packings differ by" if s.above() is None else "")
 s = sample("hll", thick, density(2))
-study.claim("4.2", "The number of 250 nm particles peaks at the top under HLL", "Fig. 27", f"{100 * s.mean:.0f} ± {100 * s.error:.0f} % more at the surface than in the middle",
+study.claim("4.2", "The number of 250 nm particles peaks at the top under HLL", "Fig. 27", f"{s.percent(0)} more at the surface than in the middle",
             f"likewise ({STUDENT})", s.above())
 pairs = list(zip(*(seeds(d, thick) for d in STRATEGIES)))
 s = Sample((share(2)(h) + share(2)(e)) / (share(2)(l) + share(2)(a)) - 1 for h, l, a, e in pairs)
-study.claim("4.2", "Some 25 % more small particles gather under HLL and EVA than under LLH and ABS", "Fig. 28, text", f"{100 * s.mean:.1f} ± {100 * s.error:.1f} % more at the surface",
+study.claim("4.2", "Some 25 % more small particles gather under HLL and EVA than under LLH and ABS", "Fig. 28, text", f"{s.percent(1)} more at the surface",
             f"share of the solid volume in the band 0.5 to 2 um below the surface, (HLL + EVA)/(LLH + ABS) - 1, above 10 % ({STUDENT})", s.above(0.10),
             why="no model that was tried gives more: HLL over LLH alone " + ", ".join(f"{100 * (share(2)(a[0]) / share(2)(b[0]) - 1):.0f} % {name}" for name, end in
                 (("as chosen", still + "-s1"), ("with Brownian motion", still + "-s1-b"), ("with the source's hydrodynamics", still + "-s1-thesis"), ("with strong evaporation doubled", still + "-s1-h80"))
                 if (a := [r for c, r in runs.items() if c == f"hll-{thick}um{end}"]) and (b := [r for c, r in runs.items() if c == f"llh-{thick}um{end}"])) + " (one packing)")
 flat = Sample(max(abs(share(b)(run) - 1) for b in range(3)) for d in STRATEGIES for run in seeds(d, thick))
-study.claim("4.2", "The volume fraction of 250 nm particles is nearly constant throughout the layers", "Fig. 28", f"{100 * flat.mean:.1f} ± {100 * flat.error:.1f} % off in the band that is most",
+study.claim("4.2", "The volume fraction of 250 nm particles is nearly constant throughout the layers", "Fig. 28", f"{flat.percent(1)} off in the band that is most",
             f"largest deviation of three bands from the start, mean of all runs, below 10 % ({STUDENT})", flat.below(0.10),
             why="largest in the band " + "; ".join(f"{w} under {d.upper()}: {100 * x:+.0f} %" for d in STRATEGIES for b, w in enumerate(("at the substrate", "in the middle", "at the surface"))
                                                   if abs(x := sample(d, thick, share(b)).mean - 1) > 0.1))
 s = sample("abs", thick, lambda run: share(0)(run) - share(1)(run))
-study.claim("4.2", "No excess of small particles in the filter cake, even where absorption dominates", "text with Fig. 28", f"ABS: {100 * s.mean:.1f} ± {100 * s.error:.1f} % over the middle",
+study.claim("4.2", "No excess of small particles in the filter cake, even where absorption dominates", "text with Fig. 28", f"ABS: {s.percent(1)} over the middle",
             f"share of the solid volume at the substrate over the middle, below 5 % ({STUDENT})", s.below(0.05))
 
 # ---- what the conclusions hang on
