@@ -77,6 +77,8 @@ class OutputFile {
     Handle dataset_;
   };
 
+  // Arrays from here on are not deflated: for files that are written often and soon gone.
+  void keep_plain() { plain_ = true; }
   // Missing parents are made. Paths are absolute: "/solids/time".
   void group(const std::string& path);
   void write(const std::string& path, const Extent&, const double* values, Type stored = Type::Float64);
@@ -107,6 +109,7 @@ class OutputFile {
                      std::int64_t space, const void* value) const;
   std::filesystem::path final_, part_;
   Handle file_;
+  bool plain_ = false;
 };
 
 class InputFile {

@@ -102,8 +102,10 @@ Handle OutputFile::create(const std::string& path, const Extent& shape, std::int
   } else {
     const auto chunk = chunk_shape(shape, element);
     H5Pset_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data());
-    H5Pset_shuffle(creation.id());
-    H5Pset_deflate(creation.id(), deflate_level);
+    if (!plain_) {
+      H5Pset_shuffle(creation.id());
+      H5Pset_deflate(creation.id(), deflate_level);
+    }
     H5Pset_fletcher32(creation.id());
     // A chunk that a damaged index no longer finds reads as what cannot be meant, not as zero.
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
