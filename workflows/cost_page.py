@@ -9,16 +9,10 @@ import pathlib
 import re
 import sys
 
+from took import duration, took
+
 results, studies = pathlib.Path(sys.argv[1]), sys.argv[2:]
 SECONDS = {"s": 1, "min": 60, "h": 3600, "days": 86400, "d": 86400}
-
-
-def duration(seconds):
-    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.1f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
-
-
-def took(path):
-    return float(path.read_text().split()[1])
 
 
 def measured(folder, size):

@@ -5,6 +5,8 @@ import pathlib
 import re
 import sys
 
+from took import duration, took
+
 results, study, docs = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
 figures = sorted((results / study / "figures").glob("*.svg"))
 if not figures:
@@ -16,6 +18,11 @@ with open(results / study / "claims.csv", newline="", encoding="utf-8") as file:
 # Which random packings, where cases name theirs.
 seeds = sorted({m[1] for case in cases if (m := re.search(r"-s(\d+)(?:-|$)", case))})
 packings = f' SEEDS="{" ".join(seeds)}"' if seeds else ""
+runs = {case: took(record) for case in cases if (record := results / study / case / ".made" / "consolidate.took").exists()}
+cost = ""
+if runs:
+    dearest = max(runs, key=runs.get)
+    cost = f" Their consolidation took {duration(sum(runs.values()))} of CPU time, `{dearest}` the most of it, {duration(runs[dearest])}."
 folder = docs / "images" / study
 folder.mkdir(parents=True, exist_ok=True)
 (docs / "studies").mkdir(exist_ok=True)
@@ -25,7 +32,7 @@ for old in folder.glob("*.svg"):
 readme = pathlib.Path(__file__).parent / study / "README.md"
 title, _, about = (readme.read_text(encoding="utf-8") if readme.exists() else f"# {study}\n").partition("\n")
 lines = [title, "", about.strip().split("\n\n")[0], "",
-         f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page. "
+         f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page.{cost} "
          f"[All claims](../claims.md#{study}), from runs of either size.", "",
          "<details><summary>The cases that ran</summary>", "", ", ".join(cases), "", "</details>", "",
          "| § | claim | ours | decided by | verdict |", "|---|---|---|---|---|"]
