@@ -36,6 +36,7 @@ SolveReport AdaptiveSolver::solve(const PairSystem& system, std::vector<double>&
   if (!had_network) {
     ++jacobi_solves_;
     jacobi_iterations_ += report.iterations;
+    jacobi_failures_ += !report.converged;
   }
   if (report.converged || first.max_iterations == options.max_iterations) return report;
   const int before = report.iterations;
@@ -43,7 +44,8 @@ SolveReport AdaptiveSolver::solve(const PairSystem& system, std::vector<double>&
   if (!(report.residual < 1e300)) x.clear();
   make(system);
   if (!had_network && network_.ready())
-    stiff_ = network_.work() * jacobi_solves_ < work_of_pair * static_cast<double>(system.topology->pairs()) * jacobi_iterations_;
+    stiff_ = (jacobi_failures_ > 1 && 2 * jacobi_failures_ > jacobi_solves_) ||
+             network_.work() * jacobi_solves_ < work_of_pair * static_cast<double>(system.topology->pairs()) * jacobi_iterations_;
   report = network_.ready() ? conjugate_gradients(system, x, with_network, &network_) : conjugate_gradients(system, x, options);
   report.iterations += before;
   return report;

@@ -14,7 +14,7 @@ constexpr double shortest_step = 1e-9;  // ms
 constexpr double intolerable = 4;
 // A noisy step that failed is made in halves, and so are those that follow: in an uncharged layer three quarters of the time went into steps as
 // long as the noise allows, of which all failed. They grow back slowly, by half in 20 steps. What takes more than two halvings is one mishap,
-// and no reason for ever shorter steps.
+// and no reason for ever shorter steps, unless the two steps before took more as well.
 constexpr double growth_after_failure = 1.02, remembered = 0.25;
 // Every so many steps a layer that its bonds make stiff is tried without the solver's network.
 constexpr int look_again = 16;
@@ -46,7 +46,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
   // Chosen before the noise is drawn, and never after, by the temperature, which may have changed, and by what earlier steps came to.
   if (noisy && !fixed) {
     const double most = noise_step(problem, context_.liquid_at_time(state.time));
-    state.preferred_step = std::clamp(growth_after_failure * state.preferred_step, remembered * most, most);
+    const double least = std::min(remembered * most, std::max(state.last_step, state.previous_step));
+    state.preferred_step = std::clamp(growth_after_failure * state.preferred_step, least, most);
   }
   double dt = std::min(state.preferred_step, longest);
   if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end

@@ -193,6 +193,17 @@ TEST(AdaptiveSolver, OneSolveGoneAstrayMakesAChainStiffAndNoJam) {
   EXPECT_TRUE(solver.solve(easy.system, x, {1e-4, 20000}).converged);
   EXPECT_FALSE(solver.has_network()) << "it does not fit the easy one";
   EXPECT_LT(error(x, easy.exact), 1e-2);
+  // Where block Jacobi fails again and again the network is what is left.
+  Chain stiffer;
+  make_jam(stiffer, 12, 1e-4, 30);
+  stiffer.system.topology = &jam.topology;
+  solver.begin_step(false);
+  x.clear();
+  EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
+  EXPECT_FALSE(solver.is_stiff());
+  x.clear();
+  EXPECT_TRUE(solver.solve(stiffer.system, x, options).converged);
+  EXPECT_TRUE(solver.is_stiff());
   // A layer that was stiff at the last step's end begins with a network, whatever it costs.
   x.clear();
   solver.begin_step(true);
