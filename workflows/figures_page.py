@@ -31,7 +31,8 @@ for old in folder.glob("*.svg"):
 
 readme = pathlib.Path(__file__).parent / study / "README.md"
 title, _, about = (readme.read_text(encoding="utf-8") if readme.exists() else f"# {study}\n").partition("\n")
-lines = [title, "", about.strip().split("\n\n")[0], "",
+about = about.strip().split("\n\n")[0].replace("](../", "](../../workflows/")     # its links are those of the study's own folder
+lines = [title, "", about, "",
          f"`make study-{study} SIZE={size}{packings}` ran what follows, {len(cases)} cases; `make figures-{study}` wrote this page.{cost} "
          f"[All claims](../claims.md#{study}), from runs of either size.", "",
          "<details><summary>The cases that ran</summary>", "", ", ".join(cases), "", "</details>", "",
