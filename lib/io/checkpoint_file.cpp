@@ -59,7 +59,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   // Under a name of its own first, so that the newest and the previous are never both in the making.
   const fs::path newest = checkpoint_path(output), fresh = sibling(output, ".checkpoint.new.h5");
   h5::OutputFile file(fresh);
-  // One a frame: deflating them took a sixth of the time of a layer of 7,000 particles with a frame every 5 ms.
+  // One a frame: deflating them took a tenth of the time of a layer of 7,000 particles with a frame every 5 ms.
   file.keep_plain();
   Provenance provenance;
   provenance.tool = "checkpoint";
