@@ -39,17 +39,18 @@ print(f"| {n} | {scheme} | {duration:g} s | {1e6 * step:.0f} us | {1e3 * took / 
 PY
 }
 thousand=(--set layer.width="5 um" --set layer.thickness="8.727 um")
-# What acts between near spheres alone: no rotation, lubrication up to a tenth of a radius; and solves to 1e-2 (default: 1e-3), whose part in
-# the weak error is not measured but by the second table.
-near=(--set hydrodynamics.cutoff=0.1 --set stepping.solver_tolerance=1e-2)
-coarse=("${near[@]}" --set brownian.model=k_brown --set stepping.integrator=linearly_implicit)
+# What cheaper runs leave out: rotation, and most of the solver's tolerance; then the noise and the implicit step as well. pairs-lean and
+# pairs-coarse of the study are such pairs: what that costs in error.
+options() { sed 's/^/--set=/' "$@"; }
+mapfile -t lean < <(options "$here/lean.options")
+mapfile -t coarse < <(options "$here/lean.options" "$here/coarse.options")
 rotation=(--set hydrodynamics.rotation=true)
 echo "| spheres of 0.5 um | noise and drag | model time | step | wall time a step | in all |"
 echo "|---|---|---|---|---|---|"
 row thousand "fluctuation_dissipation, rotation" 30 "0.125 ms" "${thousand[@]}" "${rotation[@]}"
-row thousand-near "fluctuation_dissipation, near pairs, solves to 1e-2" 30 "0.125 ms" "${thousand[@]}" "${near[@]}"
+row thousand-lean "fluctuation_dissipation, no rotation, solves to 1e-2" 30 "0.125 ms" "${thousand[@]}" "${lean[@]}"
 row long "fluctuation_dissipation, rotation" 300 "0.1 ms" "${rotation[@]}"
 row long-thousand "fluctuation_dissipation, rotation" 300 "0.1 ms" "${thousand[@]}" "${rotation[@]}"
-row long-near "fluctuation_dissipation, near pairs, solves to 1e-2" 300 "0.1 ms" "${thousand[@]}" "${near[@]}"
-row long-coarse "k_brown, near pairs, solves to 1e-2, linearly_implicit" 300 "0.1 ms" "${thousand[@]}" "${coarse[@]}"
+row long-lean "fluctuation_dissipation, no rotation, solves to 1e-2" 300 "0.1 ms" "${thousand[@]}" "${lean[@]}"
+row long-coarse "k_brown, no rotation, solves to 1e-2, linearly_implicit" 300 "0.1 ms" "${thousand[@]}" "${coarse[@]}"
 if ((${#done_rows[@]} > 1)); then /usr/bin/python3 "$here/cost_errors.py" "$folder" "${done_rows[@]}"; fi

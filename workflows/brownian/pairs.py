@@ -24,11 +24,11 @@ class Gaps:
 
 
 class Pairs:
-    """results: the study's folder. runs: {(noise, treatment): {step in ms: Gaps}}; default, long: Gaps; exact: {noise: (mean, s.d.)}."""
+    """results: the study's folder. runs: {(noise, treatment): {step in ms: Gaps}}; default, long, lean, coarse: Gaps; exact: {noise: (mean, s.d.)}."""
 
     def __init__(self, results):
         self.exact = pair_statistics(results / "interactions.csv")
-        self.default, self.long = Gaps(results / "pairs-default.h5"), Gaps(results / "pairs-long.h5")
+        self.default, self.long, self.lean, self.coarse = (Gaps(results / f"pairs-{name}.h5") for name in ("default", "long", "lean", "coarse"))
         self.runs = {}
         for noise in NOISES:
             for treatment in TREATMENTS:

@@ -48,7 +48,7 @@ if LOW:
     s = Sample(relative)
     study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed",
                 "height below which 99 % of the solids lie at 0.2 s: " + ", ".join(f"{p} mV {mean_um(p).text(2)} um" for p in at_time(0.2)) + f"; mean of {', '.join(map(str, LOW))} mV over 25 and 50 mV {s.percent()}",
-                f"more than {100 * WITHIN:g} % ({STUDENT})", s.above(WITHIN))
+                f"more than {100 * WITHIN:g} % ({STUDENT})", s.above(WITHIN), why="the surface, whose height the dewatering imposes, lies on the particles at every potential; surfaces that yield: below")
 else:
     study.claim("4.4", "Potentials of 0 to 10 mV leave a much thicker layer than those above", "Fig. 36; thickness by the particles, since the surface's height is imposed", DEAR,
                 f"more than {100 * WITHIN:g} % ({STUDENT})", None)
@@ -56,10 +56,13 @@ surface = {p: [abs(of_potential(p)[0].thickness[at(of_potential(p)[0], t)] - of_
 study.claim("4.4", "The layer shrinks at roughly the same rate at every potential", "Fig. 38",
             f"the surface at {len(TIMES)} times differs by at most {max(max(v) for v in surface.values() if v) / 1e-9:.1f} nm, as the dewatering is the same", "the surface's height is the wet layer less the liquid lost, which the scene imposes", FROM_INPUT)
 bulk = {p: Sample(r.bands(at(r, 0.2))[1] for r in of_potential(p)) for p in POTENTIALS}
+all_bands = lambda p: np.mean([r.bands(at(r, 0.2)) for r in of_potential(p)], axis=0)     # noqa: E731
 slope = Sample(np.polyfit(ALL, [of_potential(p)[i].bands(at(of_potential(p)[i], 0.2))[1] for p in ALL], 1)[0] * 50 for i in PACKINGS)
 study.claim("4.4", "The potential has no significant systematic impact on the solids inside", "Fig. 37", "middle of the layer at 0.2 s: " + ", ".join(f"{p} mV {bulk[p].text()}" for p in at_time(0.2)) + f" wt-%; fitted over {ALL[0]} to 50 mV, a rise of {slope.text(2)}",
             f"the straight line through {len(ALL)} potentials changes over 50 mV by less than 1 wt-% ({STUDENT})", both(slope.below(1), slope.above(-1), None if not LOW else True),
-            why="" if LOW else "two potentials are no trend; those of 0 to 10 mV are dear, and SIZE=full has them")
+            why="the layer's mean is imposed, and repulsion is what evens it out: with less of it cake and skin are denser, and what lies between them is left wetter. Substrate, "
+                "middle, surface: " + "; ".join(f"{p} mV {', '.join(f'{v:.1f}' for v in all_bands(p))}" for p in at_time(0.2)) + " wt-%; 0 mV: contacts that hold keep cake and skin from going on as at 5 mV"
+            if LOW else "two potentials are no trend; those of 0 to 10 mV are dear, and SIZE=full has them")
 near, NEAR_TIME = {}, next(t for t in reversed((0.01, *TIMES)) if reach(0, t))
 for p in POTENTIALS:
     share = []
@@ -74,6 +77,11 @@ study.claim("4.4", "A low potential agglomerates the particles: a sharp peak at 
             f"more at 0 than at 50 mV, of the pairs nearer than the smallest diameter, {NEAR_TIME:g} s, by ten standard deviations of the packings at 50 mV", None if len(near[50]) < 2 else bool(s.mean > 10 * spread))
 
 # ---- how the surface holds
+def pressure_on_surface(run, t):
+    with study.file(run.case, "trajectory") as f:
+        return f["observables/surface_pressure/value"][at(run, t)]
+
+
 if LOW:
     WEAK = 0
     tensions = {p: [(t, r) for t, r in ((72, of_potential(p)[0]), *((t, one(f"k10-p{p}-t{t:g}")) for t in (7, 0.7, 0.07))) if r] for p in (WEAK, 50)}
@@ -83,7 +91,8 @@ if LOW:
         differences.append(("500 kPa at most", limited[WEAK].z99[at(limited[WEAK], 0.2)] / limited[50].z99[at(limited[50], 0.2)] - 1, limited[WEAK].protruding[at(limited[WEAK], 0.2)]))
     study.claim("4.4", f"A surface that yields would let layers of low potential ({WEAK} mV) stay thicker", "Fig. 36 leaves open how the surface held in the source",
                 f"z99 at {WEAK} mV over that at 50 mV, 0.2 s: " + "; ".join(f"{name} {100 * d:+.2f} % ({100 * o:.2f} % of the solids above the surface)" for name, d, o in differences),
-                f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", any(d > WITHIN for _, d, _ in differences[1:]))
+                f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", any(d > WITHIN for _, d, _ in differences[1:]),
+                why="no layer presses on the surface yet: at 0.2 s, under 72 mN/m, " + ", ".join(f"{p} mV with {pressure_on_surface(tensions[p][0][1], 0.2):.0f} Pa" for p in tensions))
 else:
     study.claim("4.4", "A surface that yields would let uncharged layers stay thicker", "Fig. 36 leaves open how the surface held in the source", DEAR, f"more than {100 * WITHIN:g} % with any of the weaker surfaces (one packing)", None)
 

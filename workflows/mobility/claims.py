@@ -102,9 +102,19 @@ study.claim("4.3", "The top has 82 wt-% under HLL against 68 under LLH after 0.2
             both(s.above(9), s.below(19)),
             why="the source prints no rates, and its layer under LLH is hardly drier at 0.2 s than it was applied; here the whole layer has "
                 f"{Sample(mean_solids(m) for m in thick['llh']).mean:.0f} wt-% by then, against {Sample(mean_solids(m) for m in thick['hll']).mean:.0f} under HLL")
+def without_noise(*strategies):
+    """What the first packings do without Brownian motion, where the study has such runs beside those with it."""
+    still = [moves[case] for d in strategies if (case := thick[d][0].case.removesuffix("-b")) in moves and thick[d][0].case != case]
+    if len(still) < len(strategies):
+        return ""
+    return ("Brownian motion carries particles sideways where the layer stays wet, under LLH longest; without it, one packing: "
+            + ", ".join(f"{d.upper()} {m.rms_lateral[SURFACE]:.3f}" for d, m in zip(strategies, still)) + " um")
+
+
 s = pairs("hll", "llh", lambda m: m.rms_lateral[SURFACE])
 study.claim("4.3", "Lateral mobility near the surface is significantly higher under HLL than under LLH", "Fig. 32",
-            "; ".join(f"{d.upper()} {Sample(m.rms_lateral[SURFACE] for m in thick[d]).text(3)} um" for d in ("hll", "llh")), f"root mean square, 0.5 to 2 um below the surface ({STUDENT})", s.above())
+            "; ".join(f"{d.upper()} {Sample(m.rms_lateral[SURFACE] for m in thick[d]).text(3)} um" for d in ("hll", "llh")), f"root mean square, 0.5 to 2 um below the surface ({STUDENT})", s.above(),
+            why=without_noise("hll", "llh"))
 s = pairs("abs", "eva", lambda m: m.rms_lateral[SURFACE])
 study.claim("4.3", "Lateral mobility near the surface is higher under ABS than under EVA", "Fig. 34",
             "; ".join(f"{d.upper()} {Sample(m.rms_lateral[SURFACE] for m in thick[d]).text(3)} um" for d in ("abs", "eva")), f"likewise ({STUDENT})", s.above(),
