@@ -12,6 +12,8 @@ namespace {
 constexpr double shortest_step = 1e-9;  // ms
 // A step whose error is that many times what was asked for is taken again, shorter.
 constexpr double intolerable = 4;
+// Times are sums that round: what is left over by less than this share of a step is no step of its own.
+constexpr double rounding = 1e-9;
 // A noisy step that failed is made in halves, and so are those that follow: in an uncharged layer three quarters of the time went into steps as
 // long as the noise allows, of which all failed. They grow back slowly, by half in 20 steps. What takes more than two halvings is one mishap,
 // and no reason for ever shorter steps, unless the two steps before took more as well.
@@ -50,7 +52,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
     state.preferred_step = std::clamp(growth_after_failure * state.preferred_step, least, most);
   }
   double dt = std::min(state.preferred_step, longest);
-  if (dt < longest && dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
+  if (longest - dt < rounding * dt) dt = longest;
+  else if (dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
   StepReport report;
   for (;; ++report.rejected) {
     context_.expect_stiff(state.stiff && state.step % look_again != 0);

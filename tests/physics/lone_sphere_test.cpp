@@ -25,6 +25,19 @@ TEST(LoneSphere, MovesWithTheAbsorbingLiquid) {
   EXPECT_NEAR(state.velocity[0].z(), -q, 1e-10 * q);
 }
 
+// Ten steps of 0.1 ms make a millisecond, though 0.1 is no binary number and ten of them fall short of it by rounding.
+TEST(LoneSphere, TakesAsManyFixedStepsAsFitIntoAnInterval) {
+  stepping::Problem problem = test::empty_problem();
+  Vec3Array position;
+  test::add_particle(problem, position, 0.5, Vec3(50, 50, 90));
+  problem.stepping.time_step = 0.1;
+  stepping::RunState state = stepping::initial_state(problem, position);
+  stepping::Stepper stepper(problem, state);
+  for (int frame = 1; frame <= 5; ++frame)
+    while (state.time < frame) EXPECT_NEAR(stepper.advance(state, frame - state.time).step, 0.1, 1e-12);
+  EXPECT_EQ(state.step, 50);
+}
+
 // Above the substrate it moves at q/f(h): the exact f of the table (bispherical coordinates), 0.2 % asked for.
 TEST(LoneSphere, SlowsDownAboveTheSubstrateAsTheExactSolutionSays) {
   const auto table = test::read_table("wall_resistance.csv");
