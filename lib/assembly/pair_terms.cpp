@@ -91,16 +91,15 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
       s = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);
       squeeze_[p] = s.squeeze;
     }
-    const double reduced_radius = radius_[i] * radius_[j] / (radius_[i] + radius_[j]);
     double viscous = s.squeeze;
     if (two_step_) {
       if (viscous > 0 && squeeze_from_[p] > 0 && guess > 0) {
-        const double c = resistance::squeeze_constant(reduced_radius), weight = squeeze_weight(p);
+        const double c = resistance::squeeze_constant(geometry(p).reduced_radius()), weight = squeeze_weight(p);
         viscous += weight * c * (1 / guess - 1 / at);
         f += mu * weight * c * (std::log(squeeze_from_[p] / guess) + (guess - from - turn) / guess) / dt_;
       }
     } else if ((newton_ || path_resistance_) && viscous > 0 && guess != gap_begin_[p] && guess > 0 && gap_begin_[p] > 0) {
-      const double weight = squeeze_weight(p);
+      const double weight = squeeze_weight(p), reduced_radius = geometry(p).reduced_radius();
       const resistance::SqueezeStep step = resistance::squeeze_step(reduced_radius, gap_begin_[p], guess, at);
       viscous += weight * step.coefficient;
       f += mu * weight * (step.impulse - resistance::squeeze_constant(reduced_radius) * turn / guess) / dt_;

@@ -21,18 +21,26 @@ struct Formula {
   double kappa, permittivity;
 
   PairTerm operator()(const PairGeometry& g) const {
-    const double e = std::exp(-kappa * g.gap), scale = std::numbers::pi * permittivity * g.reduced_radius();
-    const double p1 = g.potential_a, p2 = g.potential_b;
-    if (p1 == p2) {
-      const double s = 4 * scale * p1 * p1, share = e / (1 + e);
-      return {s * std::log1p(e), s * kappa * share, s * kappa * kappa * share / (1 + e)};
-    }
+    PairTerm term = without_energy(g);
+    const double e = std::exp(-kappa * g.gap), sum = g.potential_a + g.potential_b, difference = g.potential_a - g.potential_b;
     // In terms of sum and difference: E = scale [ (p1+p2)^2 ln(1+e) + (p1-p2)^2 ln(1-e) ].
+    term.energy = scale(g) * sum * sum * std::log1p(e);
+    if (difference != 0) term.energy += scale(g) * difference * difference * std::log1p(-e);
+    return term;
+  }
+  PairTerm without_energy(const PairGeometry& g) const {
+    const double e = std::exp(-kappa * g.gap), p1 = g.potential_a, p2 = g.potential_b;
+    if (p1 == p2) {
+      const double s = 4 * scale(g) * p1 * p1, share = e / (1 + e);
+      return {0, s * kappa * share, s * kappa * kappa * share / (1 + e)};
+    }
     const double plus = (p1 + p2) * (p1 + p2), minus = (p1 - p2) * (p1 - p2);
     const double up = e / (1 + e), down = e / (1 - e);
-    return {scale * (plus * std::log1p(e) + minus * std::log1p(-e)), scale * kappa * (plus * up - minus * down),
-            scale * kappa * kappa * (plus * up / (1 + e) - minus * down / (1 - e))};
+    return {0, scale(g) * kappa * (plus * up - minus * down), scale(g) * kappa * kappa * (plus * up / (1 + e) - minus * down / (1 - e))};
   }
+
+ private:
+  double scale(const PairGeometry& g) const { return std::numbers::pi * permittivity * g.reduced_radius(); }
 };
 
 struct Electrostatic {

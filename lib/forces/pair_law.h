@@ -66,7 +66,8 @@ struct PairLawEntry {
 const std::vector<PairLawEntry>& pair_laws();
 
 // What a law's file supplies: struct Formula { double cutoff_gap, floor_gap; PairTerm operator()(const PairGeometry&) const; }
-// (only called with gap >= floor_gap), `static constexpr bool concave = true` where that holds, and a Law with `Formula prepare(const Liquid&) const`.
+// (only called with gap >= floor_gap), the same as without_energy where the energy costs a function of its own, `static constexpr bool concave = true`
+// where that holds, and a Law with `Formula prepare(const Liquid&) const`.
 template <typename Formula>
 class PreparedFormula final : public PreparedPairLaw {
  public:
@@ -81,7 +82,7 @@ class PreparedFormula final : public PreparedPairLaw {
   void add(std::span<const PairGeometry> pairs, std::span<double> force, std::span<double> stiffness) const override {
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       if (pairs[p].gap >= formula_.cutoff_gap) continue;
-      const PairTerm term = faded(pairs[p]);
+      const PairTerm term = faded_force(pairs[p]);
       force[p] += term.force;
       stiffness[p] += term.stiffness;
     }
@@ -105,8 +106,14 @@ class PreparedFormula final : public PreparedPairLaw {
     const double depth = formula_.floor_gap - g.gap;
     return {f.energy + depth * (f.force + 0.5 * depth * f.stiffness), f.force + depth * f.stiffness, f.stiffness};
   }
+  // The energy, where it takes a function of its own, is left out where nothing asks for it: the logarithm of the double layer took 4 % of a step.
+  PairTerm faded_force(const PairGeometry& g) const {
+    if constexpr (requires { formula_.without_energy(g); })
+      if (g.gap >= formula_.floor_gap && g.gap <= fading * formula_.cutoff_gap) return formula_.without_energy(g);
+    return faded(g);
+  }
   PairTerm faded(const PairGeometry& g) const {
-    const double cutoff = formula_.cutoff_gap, begin = 0.75 * cutoff;
+    const double cutoff = formula_.cutoff_gap, begin = fading * cutoff;
     if (g.gap >= cutoff) return {};
     const PairTerm f = continued(g);
     if (g.gap <= begin) return f;
@@ -116,6 +123,8 @@ class PreparedFormula final : public PreparedPairLaw {
     const double ddw = -60 * t * (1 - t) * (1 - 2 * t) / (width * width);
     return {f.energy * w, f.force * w - f.energy * dw, f.stiffness * w - 2 * f.force * dw + f.energy * ddw};
   }
+
+  static constexpr double fading = 0.75;  // of the cutoff: from there on a law fades
   Formula formula_;
 };
 

@@ -12,8 +12,8 @@ struct Cell {
 
   // Nearest periodic image of a separation vector. Valid for separations of positions unwrapped by any number of periods.
   Vec3 minimum_image(Vec3 d) const {
-    d.x() -= width_x * std::nearbyint(d.x() / width_x);
-    d.y() -= width_y * std::nearbyint(d.y() / width_y);
+    d.x() = nearest(d.x(), width_x);
+    d.y() = nearest(d.y(), width_y);
     return d;
   }
   // The image of a position inside [0, width).
@@ -23,6 +23,10 @@ struct Cell {
     return p;
   }
   double area() const { return width_x * width_y; }
+
+ private:
+  // Most separations are the nearest already, and rounding is a call.
+  static double nearest(double d, double width) { return std::abs(d) <= 0.5 * width ? d : d - width * std::nearbyint(d / width); }
 };
 
 }  // namespace pigment

@@ -74,12 +74,12 @@ PairScalars pair_scalars(double radius_i, double radius_j, double gap) {
 }
 
 PairScalars tapered_pair_scalars(double radius_i, double radius_j, double gap, const LubricationTaper& range) {
-  const auto [R, kap] = shape_of(radius_i, radius_j);
   const double smaller = std::min(radius_i, radius_j);
   const double squeeze_weight = taper(gap / smaller, range.squeeze_begin, range.squeeze_end);
   PairScalars k;
   if (squeeze_weight == 0) return k;
-  const double x = gap / R, log_term = std::log1p(1 / x), x_log = x * log_term, k2 = kap * kap;
+  const auto [R, kap] = shape_of(radius_i, radius_j);
+  const double x = gap / R, log_term = std::log(1 + 1 / x), x_log = x * log_term, k2 = kap * kap;
   const double squeeze_log = 0.2 * (1 + 1.25 * (1 - k2));
   k.squeeze = squeeze_weight * 6 * pi * R * (1 / x + squeeze_log * log_term + five_terms(kn_fit, k2, x, x_log));
   const double shear_weight = taper(gap / smaller, range.shear_begin, range.shear_end);
