@@ -111,11 +111,11 @@ study.claim("4.2", "The number of 250 nm particles peaks in the cake where liqui
             f"diameters up to 300 nm, particles a height, beyond the packing's own profile, mean of 0.14 to 0.18 s, above 0 ({STUDENT})", s.above(),
             why="what peak there is, is smaller than packings differ by" if s.above() is None else "")
 s = sample("hll", thick, density(2))
-study.claim("4.2", "The number of 250 nm particles peaks at the top under HLL", "Fig. 27", f"{s.percent(0)} more at the surface than in the middle",
+study.claim("4.2", "The number of 250 nm particles peaks at the top under HLL", "Fig. 27", f"at the surface {s.percent(0)} against the middle",
             f"likewise ({STUDENT})", s.above())
 pairs = list(zip(*(seeds(d, thick) for d in STRATEGIES)))
 s = Sample((share(2)(h) + share(2)(e)) / (share(2)(l) + share(2)(a)) - 1 for h, l, a, e in pairs)
-study.claim("4.2", "Some 25 % more small particles gather under HLL and EVA than under LLH and ABS", "Fig. 28, text", f"{s.percent(1)} more at the surface",
+study.claim("4.2", "Some 25 % more small particles gather under HLL and EVA than under LLH and ABS", "Fig. 28, text", f"at the surface {s.percent(1)}",
             f"share of the solid volume in the band 0.5 to 2 um below the surface, (HLL + EVA)/(LLH + ABS) - 1, above 10 % ({STUDENT})", s.above(0.10),
             why="no model that was tried gives more: HLL over LLH alone " + ", ".join(f"{100 * (share(2)(a[0]) / share(2)(b[0]) - 1):.0f} % {name}" for name, end in
                 (("as chosen", still + "-s1"), ("with Brownian motion", still + "-s1-b"), ("with the source's hydrodynamics", still + "-s1-thesis"), ("with strong evaporation doubled", still + "-s1-h80"))
