@@ -78,7 +78,7 @@ hindered-drag: build
 
 # Errors of Brownian motion against the step, as docs/brownian.md.
 brownian: study-brownian
-	workflows/replace_if_changed.sh docs/brownian.md /usr/bin/python3 workflows/brownian/page.py '$(BUILD)/studies/brownian'
+	workflows/replace_if_changed.sh docs/brownian.md /usr/bin/python3 workflows/brownian/page.py '$(BUILD)/studies/brownian' '$(BUILD)/brownian-cost.md'
 
 # Wall time of long runs with the full noise. Nothing else should run beside it.
 PART ?= 1

@@ -86,13 +86,12 @@ double update_narrow(const double* f, int begin, int end, double alpha, const do
 }  // namespace
 
 template <int D>
-BlockJacobi<D>::BlockJacobi(const PairSystem& system) {
+BlockJacobi<D>::BlockJacobi(const PairSystem& system) : factor_(system.topology->first_slot() * entries) {
   const PairTopology& topology = *system.topology;
   const std::size_t n = topology.particles();
   const int count = topology.chunks().count();
   // The blocks come into being where their factors will stand: first particle by particle, then four side by side.
-  factor_.resize(topology.first_slot() * entries);
-  std::vector<double> halo(topology.halo_count() * entries);
+  Scratch halo(topology.halo_count() * entries);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)

@@ -1,8 +1,7 @@
 #pragma once
 // The block-Jacobi preconditioner of a PairSystem: the Cholesky factor of every particle's own D x D block, four particles side by
 // side.
-#include <vector>
-
+#include "base/scratch.h"
 #include "solve/pair_product.h"
 
 namespace pigment::solve {
@@ -23,7 +22,7 @@ class BlockJacobi {
   // The blocks of four particles, one after the other, become their factors, side by side.
   static void factorize_four(const PairSystem&, std::size_t first, std::size_t particles, double* block);
 
-  std::vector<double> factor_;  // lower triangle row by row, with reciprocal diagonal, of four particles side by side
+  Scratch factor_;  // lower triangle row by row, with reciprocal diagonal, of four particles side by side
 };
 
 }  // namespace pigment::solve

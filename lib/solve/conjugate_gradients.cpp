@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/scratch.h"
 #include "solve/block_jacobi.h"
 
 namespace pigment::solve {
@@ -36,16 +37,12 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   // Held particles: their velocities are given, and what they contribute to the other rows joins b.
   const bool held = !system.held.empty();
   bool guess = x_out.size() == size;
-  if (!guess) x_out.assign(size, 0.0);
+  x_out.resize(size);
   std::optional<BlockJacobi<D>> jacobi;  // before the vectors: what it is made from takes their room
   if (!network) jacobi.emplace(system);
-  std::vector<double> x(padded), r(padded), z(padded), p(padded), ap(output_size<D>(topology));
-  if (guess) to_strided<D>(x_out, x);
-  if (held) {
-    guess = true;
-    for (std::size_t k = 0; k < n; ++k)
-      if (system.held[k]) x[k * S + 2] = p[k * S + 2] = system.held_velocity[k];
-  }
+  Scratch x(padded), r(padded), z(padded), p(padded), ap(output_size<D>(topology));
+  const bool given = guess;
+  guess = guess || held;
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count);
@@ -67,6 +64,17 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   };
 #pragma omp parallel
   {
+#pragma omp for schedule(static)
+    for (int c = 0; c < count; ++c) {
+      // What stands beyond the last particle belongs to the last chunk.
+      const std::size_t begin = static_cast<std::size_t>(begin_of(c)) * S, end = c + 1 < count ? static_cast<std::size_t>(begin_of(c + 1)) * S : padded;
+      for (double* v : {x.data(), r.data(), z.data(), p.data()}) std::fill(v + begin, v + end, 0.0);
+      std::fill(ap.data() + std::min(end, n * S), ap.data() + end, 0.0);
+      for (auto k = static_cast<std::size_t>(begin_of(c)); k < static_cast<std::size_t>(begin_of(c + 1)); ++k) {
+        for (int d = 0; given && d < D; ++d) x[k * S + place<D>(d)] = x_out[k * D + d];
+        if (held && system.held[k]) x[k * S + 2] = p[k * S + 2] = system.held_velocity[k];
+      }
+    }
     // Of the free rows: r = b - A given, whose size is the scale, and p = b - A x, the residual. p holds what is given before.
     for (const bool of_given : {true, false}) {
       const bool product = of_given ? held : guess;
@@ -100,15 +108,19 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       partial_energy[c] = sum;
     }
     precondition(partial_bb);
+    // Without a guess the residual is b itself.
+    if (guess) {
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) std::copy(p.begin() + begin_of(c) * S, p.begin() + begin_of(c + 1) * S, r.begin() + begin_of(c) * S);
-    precondition(partial_rz);
+      for (int c = 0; c < count; ++c) std::copy(p.data() + begin_of(c) * S, p.data() + begin_of(c + 1) * S, r.data() + begin_of(c) * S);
+      precondition(partial_rz);
+    }
 #pragma omp for schedule(static)
-    for (int c = 0; c < count; ++c) std::copy(z.begin() + begin_of(c) * S, z.begin() + begin_of(c + 1) * S, p.begin() + begin_of(c) * S);
+    for (int c = 0; c < count; ++c) std::copy(z.data() + begin_of(c) * S, z.data() + begin_of(c + 1) * S, p.data() + begin_of(c) * S);
 #pragma omp single
     {
-      bb = std::min(sum_of(partial_bb), options.largest_scale);
-      rz = sum_of(partial_rz);
+      const double all = sum_of(partial_bb);
+      bb = std::min(all, options.largest_scale);
+      rz = guess ? sum_of(partial_rz) : all;
       target = options.tolerance * options.tolerance * bb;
       energy = sum_of(partial_energy);
       done = !(rz > 0);
@@ -163,7 +175,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       }
     }
   }
-  from_strided<D>(x, x_out);
+  from_strided<D>(x.data(), x_out);
   report.scale = bb;
   report.residual = bb > 0 ? std::sqrt(rz / bb) : 0;
   report.converged = settled || (std::isfinite(rz) && rz <= 0);

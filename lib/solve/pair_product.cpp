@@ -209,14 +209,16 @@ double finish_chunk(const PairSystem& system, int chunk, bool mask, const double
 }
 
 template <int D>
-void to_strided(const std::vector<double>& x, std::vector<double>& strided) {
+void to_strided(const std::vector<double>& x, double* strided) {
   const std::size_t n = x.size() / D;
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < n; ++k) {
+    for (int q = 3; q < stride<D>; q += lanes) strided[k * stride<D> + q] = 0;
     for (int d = 0; d < D; ++d) strided[k * stride<D> + place<D>(d)] = x[k * D + d];
+  }
 }
 template <int D>
-void from_strided(const std::vector<double>& strided, std::vector<double>& x) {
+void from_strided(const double* strided, std::vector<double>& x) {
   const std::size_t n = x.size() / D;
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < n; ++k)
@@ -227,9 +229,9 @@ template void apply_chunk<3>(const PairSystem&, int, const double*, double*, Mea
 template void apply_chunk<6>(const PairSystem&, int, const double*, double*, MeanFlowSums&);
 template double finish_chunk<3>(const PairSystem&, int, bool, const double*, double*, const MeanFlowSums&);
 template double finish_chunk<6>(const PairSystem&, int, bool, const double*, double*, const MeanFlowSums&);
-template void to_strided<3>(const std::vector<double>&, std::vector<double>&);
-template void to_strided<6>(const std::vector<double>&, std::vector<double>&);
-template void from_strided<3>(const std::vector<double>&, std::vector<double>&);
-template void from_strided<6>(const std::vector<double>&, std::vector<double>&);
+template void to_strided<3>(const std::vector<double>&, double*);
+template void to_strided<6>(const std::vector<double>&, double*);
+template void from_strided<3>(const double*, std::vector<double>&);
+template void from_strided<6>(const double*, std::vector<double>&);
 
 }  // namespace pigment::solve

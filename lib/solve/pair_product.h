@@ -27,10 +27,10 @@ void apply_chunk(const PairSystem&, int chunk, const double* x, double* y, MeanF
 template <int D>
 double finish_chunk(const PairSystem&, int chunk, bool mask, const double* x, double* y, const MeanFlowSums&);
 
-// Between vectors of D entries a particle and strided ones.
+// Between vectors of D entries a particle and strided ones. What is between a particle's unknowns becomes zero.
 template <int D>
-void to_strided(const std::vector<double>& x, std::vector<double>& strided);
+void to_strided(const std::vector<double>& x, double* strided);
 template <int D>
-void from_strided(const std::vector<double>& strided, std::vector<double>& x);
+void from_strided(const double* strided, std::vector<double>& x);
 
 }  // namespace pigment::solve

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/scratch.h"
 #include "solve/pair_kernel.h"
 #include "solve/pair_product.h"
 
@@ -51,8 +52,8 @@ template <int D>
 void apply_all(const PairSystem& system, const std::vector<double>& x, std::vector<double>& y) {
   const PairTopology& topology = *system.topology;
   const int count = topology.chunks().count();
-  std::vector<double> in(input_size<D>(topology)), out(output_size<D>(topology));
-  to_strided<D>(x, in);
+  Scratch in(input_size<D>(topology)), out(output_size<D>(topology));
+  to_strided<D>(x, in.data());
   MeanFlowSums sums(system.mean_flow, count);
 #pragma omp parallel
   {
@@ -66,7 +67,7 @@ void apply_all(const PairSystem& system, const std::vector<double>& x, std::vect
     for (int c = 0; c < count; ++c) finish_chunk<D>(system, c, false, in.data(), out.data(), sums);
   }
   y.resize(x.size());
-  from_strided<D>(out, y);
+  from_strided<D>(out.data(), y);
 }
 
 // What a full pair adds to the block of one of its particles, moving alone. With N = n x, P = 1 - n n^T, l its lever and

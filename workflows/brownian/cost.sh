@@ -45,6 +45,10 @@ options() { sed 's/^/--set=/' "$@"; }
 mapfile -t lean < <(options "$here/lean.options")
 mapfile -t coarse < <(options "$here/lean.options" "$here/coarse.options")
 rotation=(--set hydrodynamics.rotation=true)
+command="make brownian-cost"
+[[ $part == 1 ]] || command+=" PART=$part"
+[[ $rows == all ]] || command+=" ROWS=\"$rows\""
+printf '`%s`, two threads on %s cores: spheres of 0.5 um that 5 g/m2/s keeps as a cake.\n\n' "$command" "$(nproc)"
 echo "| spheres of 0.5 um | noise and drag | model time | step | wall time a step | in all |"
 echo "|---|---|---|---|---|---|"
 row thousand "fluctuation_dissipation, rotation" 30 "0.125 ms" "${thousand[@]}" "${rotation[@]}"

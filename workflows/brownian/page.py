@@ -1,4 +1,4 @@
-"""Prints docs/brownian.md: page.py RESULTS, RESULTS = build/studies/brownian."""
+"""Prints docs/brownian.md: page.py RESULTS COST, RESULTS = build/studies/brownian, COST = what make brownian-cost has written, if it has."""
 import pathlib
 import sys
 
@@ -58,3 +58,6 @@ The same pairs at the steps and with the options of those runs (240 ms), mean ga
 | fluctuation_dissipation, with rotation | {1e3 * pairs.long.step * 1e3:.0f} us | {off(pairs.long)} |
 | without rotation, solves to 1e-2 (`lean.options`) | {1e3 * pairs.lean.step * 1e3:.0f} us | {off(pairs.lean)} |
 | and k_brown in linearly implicit steps (`coarse.options`) | {1e3 * pairs.coarse.step * 1e3:.0f} us | {off(pairs.coarse)} |""")
+cost = pathlib.Path(sys.argv[2])
+if cost.exists():
+    print("\n## What long runs cost\n\n" + cost.read_text().strip())
