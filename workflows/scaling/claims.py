@@ -9,6 +9,7 @@ from study import Study
 
 CUTOFF = 0.4  # of the smaller radius: the gap at which pair terms have faded (docs/accuracy.md)
 SAMPLE = 2000
+NAMES = ("steps-3", "steps-13")
 
 study = Study()
 
@@ -31,25 +32,32 @@ def pairs_per_particle(layer):
     return near / len(chosen) / 2
 
 
+def middle(runs, what):
+    return float(np.median([run[what] for run in runs]))
+
+
 rows = []
-for folder in sorted((p.parent for p in study.results.glob("*/steps-11.json")), key=lambda p: int(p.name)):
+for folder in sorted((p.parent for p in study.results.glob("*/steps-13-1.json")), key=lambda p: int(p.name)):
     if study.size == "quick" and int(folder.name) > 100:
         continue
-    pack, first, last = (json.loads((folder / f"{name}.json").read_text()) for name in ("pack", "steps-1", "steps-11"))
-    row = {"name": folder.name, "status": max(pack["status"], first["status"], last["status"])}
+    pack = json.loads((folder / "pack.json").read_text())
+    short, long = ([json.loads(f.read_text()) for f in sorted(folder.glob(f"{name}-*.json"))] for name in NAMES)
+    if study.size == "quick":
+        short, long = short[:1], long[:1]
+    row = {"name": folder.name, "status": max(run["status"] for run in (pack, *short, *long))}
     if row["status"] == 0:
         with study.file(folder.name, "packing") as f:
             layer = f["particles/layer"]
             row |= {"particles": len(layer["radius"]), "pairs_per_particle": pairs_per_particle(layer)}
         counts, iterations = [], []
-        for name in ("steps-1", "steps-11"):
+        for name in NAMES:
             with study.file(folder.name, name) as f:
                 counts.append(int(f["particles/layer/position/step"][-1]))
                 iterations.append(counts[-1] * float(f["observables/solver_iterations/value"][-1]))
         between = counts[1] - counts[0]
         row |= {"steps": counts[1], "iterations": (iterations[1] - iterations[0]) / between,
-                "seconds_per_step": (last["cpu_seconds"] - first["cpu_seconds"]) / between, "seconds": last["cpu_seconds"],
-                "peak_memory": last["peak_memory"], "pack_seconds": pack["cpu_seconds"], "pack_memory": pack["peak_memory"]}
+                "seconds_per_step": (middle(long, "cpu_seconds") - middle(short, "cpu_seconds")) / between, "seconds": middle(long, "cpu_seconds"),
+                "peak_memory": max(run["peak_memory"] for run in long), "pack_seconds": pack["cpu_seconds"], "pack_memory": pack["peak_memory"]}
     rows.append(row)
 columns = ["name", "status", "particles", "steps", "iterations", "seconds_per_step", "seconds", "peak_memory", "pack_seconds", "pack_memory", "pairs_per_particle"]
 part = study.results / "scaling.csv.part"
