@@ -24,16 +24,15 @@ for study in studies:
         with open(path, newline="", encoding="utf-8") as file:
             tables[study] = list(csv.DictReader(file))
 print("| study | size | " + " | ".join(VERDICTS) + " |\n" + "|---" * (2 + len(VERDICTS)) + "|")
+sizes = {study: path.read_text().split()[0] for study in tables if (path := results / study / ".made" / "claims.settings").exists()}
 for study in studies:
     if study not in tables:
         print(f"| {study} | not run |" + " |" * len(VERDICTS))
         continue
-    settings = results / study / ".made" / "claims.settings"
-    size = settings.read_text().split()[0] if settings.exists() else ""
     counts = [sum(row["verdict"] == verdict for row in tables[study]) for verdict in VERDICTS]
-    print(f"| [{study}](#{study}) | {size} | " + " | ".join(str(n) if n else "" for n in counts) + " |")
+    print(f"| [{study}](#{study}) | {sizes.get(study, '')} | " + " | ".join(str(n) if n else "" for n in counts) + " |")
 for study, rows in tables.items():
-    print(f"\n## {study}\n\n`make study-{study}`\n")
+    print(f"\n## {study}\n\n`make study-{study}{' SIZE=full' if sizes.get(study) == 'full' else ''}`\n")
     print("| § | claim | the source | ours | decided by | verdict |\n|---|---|---|---|---|---|")
     for row in rows:
         print("| " + " | ".join(cell(row[c]) for c in ("section", "claim", "source", "ours", "decided_by")) + f" | **{row['verdict']}** |")
