@@ -7,6 +7,7 @@ import sys
 
 from took import duration, took
 
+MOST = 600_000      # bytes of a figure: sections of thousands of particles take more
 results, study, docs = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
 figures = sorted((results / study / "figures").glob("*.svg"))
 if not figures:
@@ -40,7 +41,10 @@ lines = [title, "", about, "",
 lines += ["| " + " | ".join(row[c].replace("|", "\\|") for c in ("section", "claim", "ours", "decided_by")) + f" | **{row['verdict']}** |" for row in claims]
 for path in figures:
     text = path.read_text(encoding="utf-8")
-    (folder / path.name).write_text(text, encoding="utf-8")
     caption = html.unescape(re.search(r"<title>(.*?)</title>", text, re.DOTALL)[1])
+    if len(text) > MOST:
+        lines += ["", f"*{caption}: too large a drawing for this page; the study's report has it*"]
+        continue
+    (folder / path.name).write_text(text, encoding="utf-8")
     lines += ["", f"![{path.stem}](../images/{study}/{path.name})", "", f"*{caption}*"]
 (docs / "studies" / f"{study}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
