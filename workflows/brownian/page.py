@@ -57,7 +57,7 @@ The same pairs at the steps and with the options of those runs (240 ms), mean ga
 |---|---|---|
 | fluctuation_dissipation, with rotation | {1e3 * pairs.long.step * 1e3:.0f} us | {off(pairs.long)} |
 | without rotation, solves to 1e-2 (`lean.options`) | {1e3 * pairs.lean.step * 1e3:.0f} us | {off(pairs.lean)} |
-| and k_brown in linearly implicit steps (`coarse.options`) | {1e3 * pairs.coarse.step * 1e3:.0f} us | {off(pairs.coarse)} |""")
+| and k_brown in linearly implicit steps, lubrication of near pairs alone (`coarse.options`) | {1e3 * pairs.coarse.step * 1e3:.0f} us | {off(pairs.coarse)} |""")
 cost = pathlib.Path(sys.argv[2])
 if cost.exists():
     print("\n## What long runs cost\n\n" + cost.read_text().strip())
