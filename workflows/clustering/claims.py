@@ -171,7 +171,7 @@ for name, source, times in (("Fingers grow from the cake, over 5 to 6 particles 
 # ---- figures
 def panels(name, caption, runs, colour, times):
     """Sections through the layers side by side, one a time; a run that has ended by a time is shown no more. runs: (title, run)."""
-    shown = [(title, r, k) for title, r in runs for k in dict.fromkeys(r.at(t) for t in times)]
+    shown = [(title, r, k) for title, r in runs for k in dict.fromkeys(r.at(t) for t in times if t < r.time[-1] + 0.01)]
     figure, axes = study.figure(name, caption, columns=len(shown), width=170 / max(6, len(shown)), height=95, sharey=True)
     highest = max(frame_of(study, r.case, 0)[0][2][2] for _, r in runs) / UM
     for axis, (title, r, k) in zip(axes, shown):
