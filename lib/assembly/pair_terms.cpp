@@ -78,7 +78,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
       else if (!resistance_only_) path_forces(p, last, std::span(force, count), std::span(stiffness, count));
       if (path_) std::copy_n(force, count, mean_force_.begin() + static_cast<std::ptrdiff_t>(p));
     }
-    // Half of all listed pairs are too far apart for anything to act.
+    // Many listed pairs are too far apart for anything to act.
     if (!path_ && force[at_hand] == 0 && stiffness[at_hand] == 0 && squeeze_[p] == 0) {
       if (split_ || two_step_) memory_[p] = 1;
       continue;
