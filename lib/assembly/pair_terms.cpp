@@ -78,8 +78,9 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
       else if (!resistance_only_) path_forces(p, last, std::span(force, count), std::span(stiffness, count));
       if (path_) std::copy_n(force, count, mean_force_.begin() + static_cast<std::ptrdiff_t>(p));
     }
-    // Many listed pairs are too far apart for anything to act.
-    if (!path_ && force[at_hand] == 0 && stiffness[at_hand] == 0 && squeeze_[p] == 0) {
+    const bool listed = near != near_[chunk].end() && near->pair == static_cast<std::int32_t>(p);
+    // Many pairs are too far apart for anything to act.
+    if (!path_ && !listed && force[at_hand] == 0 && stiffness[at_hand] == 0 && squeeze_[p] == 0) {
       if (split_ || two_step_) memory_[p] = 1;
       continue;
     }
@@ -90,7 +91,6 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     const std::int32_t target = topology_.target(p);
     const double at = resistance_gap_[p];
     resistance::PairScalars s{squeeze_[p]};
-    const bool listed = near != near_[chunk].end() && near->pair == static_cast<std::int32_t>(p);
     if (listed) s = (near++)->scalars;
     if (path_resistance_ && passes_ > 0 && interactions_.lubrication()) {
       s = resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], at);

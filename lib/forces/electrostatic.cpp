@@ -21,26 +21,28 @@ struct Formula {
   double kappa, permittivity;
 
   PairTerm operator()(const PairGeometry& g) const {
-    PairTerm term = without_energy(g);
     const double e = std::exp(-kappa * g.gap), sum = g.potential_a + g.potential_b, difference = g.potential_a - g.potential_b;
+    PairTerm term = forces(g, e);
     // In terms of sum and difference: E = scale [ (p1+p2)^2 ln(1+e) + (p1-p2)^2 ln(1-e) ].
-    term.energy = scale(g) * sum * sum * std::log1p(e);
-    if (difference != 0) term.energy += scale(g) * difference * difference * std::log1p(-e);
+    term.energy = sum * sum * std::log1p(e);
+    if (difference != 0) term.energy += difference * difference * std::log1p(-e);
+    term.energy *= scale(g);
     return term;
   }
-  PairTerm without_energy(const PairGeometry& g) const {
-    const double e = std::exp(-kappa * g.gap), p1 = g.potential_a, p2 = g.potential_b;
-    if (p1 == p2) {
-      const double s = 4 * scale(g) * p1 * p1, share = e / (1 + e);
-      return {0, s * kappa * share, s * kappa * kappa * share / (1 + e)};
-    }
-    const double plus = (p1 + p2) * (p1 + p2), minus = (p1 - p2) * (p1 - p2);
-    const double up = e / (1 + e), down = e / (1 - e);
-    return {0, scale(g) * kappa * (plus * up - minus * down), scale(g) * kappa * kappa * (plus * up / (1 + e) - minus * down / (1 - e))};
-  }
+  PairTerm without_energy(const PairGeometry& g) const { return forces(g, std::exp(-kappa * g.gap)); }
 
  private:
   double scale(const PairGeometry& g) const { return std::numbers::pi * permittivity * g.reduced_radius(); }
+  PairTerm forces(const PairGeometry& g, double e) const {
+    const double p1 = g.potential_a, p2 = g.potential_b, s = scale(g);
+    if (p1 == p2) {
+      const double all = 4 * s * p1 * p1, share = e / (1 + e);
+      return {0, all * kappa * share, all * kappa * kappa * share / (1 + e)};
+    }
+    const double plus = (p1 + p2) * (p1 + p2), minus = (p1 - p2) * (p1 - p2);
+    const double up = e / (1 + e), down = e / (1 - e);
+    return {0, s * kappa * (plus * up - minus * down), s * kappa * kappa * (plus * up / (1 + e) - minus * down / (1 - e))};
+  }
 };
 
 struct Electrostatic {

@@ -79,6 +79,7 @@ PairScalars tapered_pair_scalars(double radius_i, double radius_j, double gap, c
   PairScalars k;
   if (squeeze_weight == 0) return k;
   const auto [R, kap] = shape_of(radius_i, radius_j);
+  // Not log1p, which is slow: where a pair still resists, 1/x is never small.
   const double x = gap / R, log_term = std::log(1 + 1 / x), x_log = x * log_term, k2 = kap * kap;
   const double squeeze_log = 0.2 * (1 + 1.25 * (1 - k2));
   k.squeeze = squeeze_weight * 6 * pi * R * (1 / x + squeeze_log * log_term + five_terms(kn_fit, k2, x, x_log));

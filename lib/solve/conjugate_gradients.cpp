@@ -36,13 +36,11 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   const int count = topology.chunks().count();
   // Held particles: their velocities are given, and what they contribute to the other rows joins b.
   const bool held = !system.held.empty();
-  bool guess = x_out.size() == size;
-  x_out.resize(size);
+  const bool guessed = x_out.size() == size, guess = guessed || held;
   std::optional<BlockJacobi<D>> jacobi;  // before the vectors: what it is made from takes their room
   if (!network) jacobi.emplace(system);
   Scratch x(padded), r(padded), z(padded), p(padded), ap(output_size<D>(topology));
-  const bool given = guess;
-  guess = guess || held;
+  if (guessed) to_strided<D>(x_out, x.data());
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
   std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count);
@@ -68,12 +66,12 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     for (int c = 0; c < count; ++c) {
       // What stands beyond the last particle belongs to the last chunk.
       const std::size_t begin = static_cast<std::size_t>(begin_of(c)) * S, end = c + 1 < count ? static_cast<std::size_t>(begin_of(c + 1)) * S : padded;
-      for (double* v : {x.data(), r.data(), z.data(), p.data()}) std::fill(v + begin, v + end, 0.0);
-      std::fill(ap.data() + std::min(end, n * S), ap.data() + end, 0.0);
-      for (auto k = static_cast<std::size_t>(begin_of(c)); k < static_cast<std::size_t>(begin_of(c + 1)); ++k) {
-        for (int d = 0; given && d < D; ++d) x[k * S + place<D>(d)] = x_out[k * D + d];
-        if (held && system.held[k]) x[k * S + 2] = p[k * S + 2] = system.held_velocity[k];
-      }
+      const std::size_t last = std::min(end, n * S);
+      for (double* v : {r.data(), z.data(), p.data()}) std::fill(v + begin, v + end, 0.0);
+      std::fill(x.data() + (guessed ? last : begin), x.data() + end, 0.0);
+      std::fill(ap.data() + last, ap.data() + end, 0.0);
+      for (auto k = static_cast<std::size_t>(begin_of(c)); held && k < static_cast<std::size_t>(begin_of(c + 1)); ++k)
+        if (system.held[k]) x[k * S + 2] = p[k * S + 2] = system.held_velocity[k];
     }
     // Of the free rows: r = b - A given, whose size is the scale, and p = b - A x, the residual. p holds what is given before.
     for (const bool of_given : {true, false}) {
@@ -175,6 +173,7 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       }
     }
   }
+  x_out.resize(size);
   from_strided<D>(x.data(), x_out);
   report.scale = bb;
   report.residual = bb > 0 ? std::sqrt(rz / bb) : 0;

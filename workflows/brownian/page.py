@@ -47,11 +47,11 @@ print(f"""## The rule for the step
 Near contact gap, force and noise are made dimensionless by the Debye length l and the time l c/kT, c = 6 pi mu R^2, R the reduced radius; dt kT/(l c) sets
 the error whatever the sizes. The default takes 0.25 of it for the smallest particles: {1e3 * default.step * 1e3:.0f} us here, where the mean gap is {100 * (default.mean / exact[0] - 1):+.1f} ±
 {100 * default.mean_error / exact[0]:.1f} % and its standard deviation {100 * (default.deviation / exact[1] - 1):+.1f} ± {100 * default.deviation_error / exact[1]:.1f} % off (240 ms). The step goes
-with the Debye length and with the square of the radius. 
+with the Debye length and with the square of the radius.
 
 ## The long runs of `make brownian-cost`
 
-The same pairs at the steps and with the options of those runs (240 ms), mean gap off its exact value:
+The same pairs at the steps and with the options of those runs (240 ms), mean gap off its exact value. Steps are means: one that finds no solution is made in halves.
 
 | | step | mean gap |
 |---|---|---|

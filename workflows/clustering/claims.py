@@ -148,8 +148,11 @@ thinnest = seeds("hll", "k2.5-p25")
 still = runs.get(f"hll-{layer}-k2.5-p25-s1") if noise else None
 
 
+meetings = [before_meeting(r) for r in thinnest]
+
+
 def why_no_fingers(times):
-    met = np.mean([before_meeting(r) for r in thinnest])
+    met = np.mean(meetings)
     if np.mean(times) > met:
         return f"cake and skin have met by then, at {met:.2f} s, with the rates chosen; before: the next row"
     if not still:
@@ -160,7 +163,7 @@ def why_no_fingers(times):
 
 
 for name, source, times in (("Fingers grow from the cake, over 5 to 6 particles and a third of the layer", "Fig. 46, HLL, 25 mV, 2.5 nm, 20 nm, 0.2 s", [0.2] * len(thinnest)),
-                            ("The same before cake and skin meet", "not the time of the source, whose rates are not printed", [before_meeting(r) for r in thinnest])):
+                            ("The same before cake and skin meet", "not the time of the source, whose rates are not printed", meetings)):
     fingers = [finger(r, t) for r, t in zip(thinnest, times)]
     reach, chain = Sample(f[0] for f in fingers), Sample(f[1] for f in fingers)
     study.claim("4.5", name, source, f"{np.mean(times):.3f} s: the highest reaches {reach.text(2)} of the thickness above the cake, over {chain.text()} particles",

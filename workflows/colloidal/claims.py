@@ -77,6 +77,8 @@ study.claim("4.4", "A low potential agglomerates the particles: a sharp peak at 
             f"more at 0 than at 50 mV, of the pairs nearer than the smallest diameter, {NEAR_TIME:g} s, by ten standard deviations of the packings at 50 mV", None if len(near[50]) < 2 else bool(s.mean > 10 * spread))
 
 # ---- how the surface holds
+
+
 def pressure_on_surface(run, t):
     with study.file(run.case, "trajectory") as f:
         return f["observables/surface_pressure/value"][at(run, t)]

@@ -102,6 +102,8 @@ study.claim("4.3", "The top has 82 wt-% under HLL against 68 under LLH after 0.2
             both(s.above(9), s.below(19)),
             why="the source prints no rates, and its layer under LLH is hardly drier at 0.2 s than it was applied; here the whole layer has "
                 f"{Sample(mean_solids(m) for m in thick['llh']).mean:.0f} wt-% by then, against {Sample(mean_solids(m) for m in thick['hll']).mean:.0f} under HLL")
+
+
 def without_noise(*strategies):
     """What the first packings do without Brownian motion, where the study has such runs beside those with it."""
     still = [moves[case] for d in strategies if (case := thick[d][0].case.removesuffix("-b")) in moves and thick[d][0].case != case]
