@@ -55,18 +55,36 @@ void StepAssembly::turn_axes(const std::vector<double>& u) {
   }
 }
 
-double StepAssembly::farthest_off(const std::vector<double>& u) const {
+std::vector<double> StepAssembly::in_fours(const std::vector<double>& u) const {
   const std::size_t D = interactions_.rotation() ? 6 : 3;
+  std::vector<double> four(4 * radius_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < radius_.size(); ++k) std::copy_n(&u[k * D], 3, &four[4 * k]);
+  return four;
+}
+
+double StepAssembly::farthest_off(const std::vector<double>& velocity) const {
   double worst = 0;
 #pragma omp parallel for schedule(static) reduction(max : worst)
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const auto [i, j] = pairs_[p];
-    Vec3 d = separation_[p];
-    for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
-    const double gap = d.norm() - radius_[i] - radius_[j], guess = guess_[p];
-    if (gap_begin_[p] > 0) worst = std::max(worst, std::abs(gap - guess) / guess);
+  for (int c = 0; c < topology_.chunks().count(); ++c) {
+    double gap[law_pairs], along[law_pairs];
+    for (std::size_t first = topology_.pair_begin(c); first < topology_.pair_begin(c + 1); first += law_pairs) {
+      const std::size_t count = std::min(law_pairs, topology_.pair_begin(c + 1) - first);
+      move_pairs(velocity, first, count, gap, along);
+      for (std::size_t p = first; p < first + count; ++p)
+        if (gap_begin_[p] > 0) worst = std::max(worst, std::abs(gap[p - first] - guess_[p]) / guess_[p]);
+    }
   }
   return worst;
+}
+
+void StepAssembly::move_pairs(const std::vector<double>& velocity, std::size_t first, std::size_t count, double* gap, double* along) const {
+  const auto pairs = std::span(pairs_).subspan(first, count);
+  const auto normal = std::span<const Vec3>(normal_).subspan(first, count);
+  if (two_step_ || split_)
+    moved_gaps(velocity.data(), dt_, sphere_, pairs, std::span<const Vec3>(separation_).subspan(first, count), normal, std::span(gap, count), std::span(along, count));
+  else
+    moved_gaps(velocity.data(), dt_, sphere_, pairs, std::span<const double>(gap_begin_).subspan(first, count), normal, std::span(gap, count), std::span(along, count));
 }
 
 GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector<double>& u, double scale, double tolerance) {
@@ -88,24 +106,30 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     if (interactions_.pressure_limited()) pressure = surface_pressure(u);
   }
   // One gap that came out far from its guess throws many others about: it alone is put right first, with those that are off nearly as far.
-  const double worst = split_ ? farthest_off(u) : 0, focus = worst > 1 ? focus_share * worst : 0;
+  const std::vector<double> velocity = path_ ? std::vector<double>() : in_fours(u);
+  const double worst = split_ ? farthest_off(velocity) : 0, focus = worst > 1 ? focus_share * worst : 0;
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
     check.smallest_gap = std::numeric_limits<double>::infinity();
     if (path_) follow_path(c, u, check);
+    double gaps[law_pairs], motion[law_pairs];  // at the step's end, along the normal
     for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1) && !path_; ++p) {
-      const auto [i, j] = pairs_[p];
-      Vec3 d = two_step_ || split_ ? separation_[p] : Vec3(normal_[p] * (gap_begin_[p] + radius_[i] + radius_[j]));
-      double along = 0;
-      for (int q = 0; q < 3; ++q) {
-        const double moved = dt_ * (u[j * D + q] - u[i * D + q]);
-        d[q] += moved;
-        along += normal_[p][q] * moved;
+      const std::size_t at_hand = (p - topology_.pair_begin(c)) % law_pairs, count = std::min(law_pairs, topology_.pair_begin(c + 1) - p);
+      if (!newton_) {
+        // Nothing is to be found but the smallest gap, and most pairs are too far apart to have it.
+        if (at_hand == 0) least_gaps(velocity.data(), dt_, std::span(pairs_).subspan(p, count), std::span<const double>(gap_begin_).subspan(p, count), std::span<const Vec3>(normal_).subspan(p, count), std::span(gaps, count));
+        if (gaps[at_hand] > std::max(check.smallest_gap, 0.0)) continue;
+        move_pairs(velocity, p, 1, &gaps[at_hand], &motion[at_hand]);
+      } else if (at_hand == 0) {
+        move_pairs(velocity, p, count, gaps, motion);
       }
-      const double gap = d.norm() - radius_[i] - radius_[j];
+      const double gap = gaps[at_hand], along = motion[at_hand];
       if (newton_ && focus == 0) turn_[p] = gap - gap_from(p) - along;
       if (split_ && focus == 0 && std::abs(turn_[p]) > 0.01 * scale) {
+        const auto [i, j] = pairs_[p];
+        Vec3 d = separation_[p];
+        for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
         // The axis half-way: along it the gap changes by what the spheres move, but for a term of fourth order.
         normal_[p] = (separation_[p] + d).normalized();
         turn_[p] = gap - gap_from(p) - normal_[p].dot(d - separation_[p]);

@@ -8,24 +8,21 @@
 
 namespace pigment::assembly {
 
-void StepAssembly::begin_two_step(int chunk, std::size_t p, const TwoStepPoint& a, const TwoStepPoint& b, double share) {
-  const auto [i, j] = pairs_[p];
-  const double contact = radius_[i] + radius_[j];
-  // One image throughout: a pair whose nearest image changes within two steps is nowhere near.
-  const Vec3 now = b.now - a.now, image = cell_.minimum_image(now) - now;
-  const Vec3 from = position_[j] - position_[i] + image, predicted = b.predicted - a.predicted + image;
-  const double r = predicted.norm(), gap = (now + image).norm() - contact, gap_before = (b.before - a.before + image).norm() - contact;
-  separation_[p] = from;
-  normal_[p] = predicted / r;
-  gap_begin_[p] = gap;
-  turn_[p] = normal_[p].dot(from) - from.norm();
-  double guess = r - contact;
-  if (gap > 0) guess = std::max(guess, largest_fall * gap);
-  guess_[p] = resistance_gap_[p] = guess;
-  squeeze_from_[p] = guess;
-  if (!interactions_.lubrication()) return;
-  set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess));
-  if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(share * std::log(gap / gap_before)) : 0;
+void StepAssembly::begin_two_step(int chunk, std::size_t first, std::size_t count, const TwoStepSpheres& spheres, double share) {
+  double before[law_pairs], foretold[law_pairs];
+  const auto of = [&](auto& array) { return std::span(array).subspan(first, count); };
+  separations(cell_, spheres, std::span(pairs_).subspan(first, count),
+              {of(separation_), of(normal_), of(gap_begin_), std::span(before, count), of(gap_from_), std::span(foretold, count), of(turn_)});
+  for (std::size_t p = first; p < first + count; ++p) {
+    const auto [i, j] = pairs_[p];
+    const double gap = gap_begin_[p], gap_before = before[p - first];
+    double guess = foretold[p - first];
+    if (gap > 0) guess = std::max(guess, largest_fall * gap);
+    guess_[p] = resistance_gap_[p] = squeeze_from_[p] = guess;
+    if (!interactions_.lubrication()) continue;
+    set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess));
+    if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(share * std::log(gap / gap_before)) : 0;
+  }
 }
 
 void StepAssembly::set_scalars(int chunk, std::size_t p, const resistance::PairScalars& scalars) {
@@ -38,15 +35,17 @@ forces::PairGeometry StepAssembly::geometry(std::size_t p) const {
   return {guess_[p], radius_[i], radius_[j], potential_[i], potential_[j]};
 }
 
-double StepAssembly::gap_from(std::size_t p) const {
-  return two_step_ ? separation_[p].norm() - (radius_[pairs_[p].i] + radius_[pairs_[p].j]) : gap_begin_[p];
-}
-
 void StepAssembly::add_laws(std::size_t begin, std::size_t end, Laws which, std::span<double> force, std::span<double> stiffness) const {
   forces::PairGeometry at[law_pairs];
   for (std::size_t p = begin; p < end; ++p) at[p - begin] = geometry(p);
   for (const auto& law : laws_)
     if (which == Laws::All || law->concave() == (which == Laws::Concave)) law->add(std::span(at, end - begin), force, stiffness);
+}
+
+void StepAssembly::add_laws(std::span<const std::int32_t> pairs, std::span<double> force, std::span<double> stiffness) const {
+  forces::PairGeometry at[law_pairs];
+  for (std::size_t q = 0; q < pairs.size(); ++q) at[q] = geometry(pairs[q]);
+  for (const auto& law : laws_) law->add(std::span(at, pairs.size()), force, stiffness);
 }
 
 void StepAssembly::add_laws(std::size_t begin, std::size_t end, std::span<forces::PairTerm> sum) const {
@@ -58,25 +57,28 @@ void StepAssembly::add_laws(std::size_t begin, std::size_t end, std::span<forces
 void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs) const {
   const int D = system.unknowns_per_particle();
   const std::size_t begin = topology_.pair_begin(chunk), end = topology_.pair_begin(chunk + 1);
+  const std::vector<std::int32_t>& acting = acting_[chunk];
+  const std::size_t count = all_act_ ? end - begin : acting.size();
   double force[law_pairs], stiffness[law_pairs];
   solve::FullPairs& full = system.full[chunk];
   solve::SqueezePairs& squeeze = system.squeeze[chunk];
-  const auto resisting = static_cast<std::size_t>(std::count_if(squeeze_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                                squeeze_.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0; }));
+  std::size_t resisting = 0;
+  for (std::size_t q = 0; q < count; ++q) resisting += squeeze_[all_act_ ? begin + q : acting[q]] > 0;
   full.restart(near_[chunk].size());
   squeeze.restart(resisting - std::min(resisting, near_[chunk].size()));
   const double mu = liquid_.viscosity;
   auto near = near_[chunk].begin();
-  for (std::size_t p = begin; p < end; ++p) {
-    const std::size_t at_hand = (p - begin) % law_pairs;
+  for (std::size_t q = 0; q < count; ++q) {
+    const std::size_t p = all_act_ ? begin + q : acting[q], at_hand = q % law_pairs;
     if (at_hand == 0) {
-      const std::size_t last = std::min(p + law_pairs, end), count = last - p;
-      if (split_) std::copy_n(standing_force_[chunk].begin() + static_cast<std::ptrdiff_t>(p - begin), count, force);
-      else std::fill_n(force, count, 0.0);
-      std::fill_n(stiffness, count, 0.0);
-      if (!path_) add_laws(p, last, split_ ? Laws::NotConcave : Laws::All, std::span(force, count), std::span(stiffness, count));
-      else if (!resistance_only_) path_forces(p, last, std::span(force, count), std::span(stiffness, count));
-      if (path_) std::copy_n(force, count, mean_force_.begin() + static_cast<std::ptrdiff_t>(p));
+      const std::size_t some = std::min(law_pairs, count - q);
+      if (split_) std::copy_n(standing_force_[chunk].begin() + static_cast<std::ptrdiff_t>(q), some, force);
+      else std::fill_n(force, some, 0.0);
+      std::fill_n(stiffness, some, 0.0);
+      if (!all_act_) add_laws(std::span(acting).subspan(q, some), std::span(force, some), std::span(stiffness, some));
+      else if (!path_) add_laws(p, p + some, split_ ? Laws::NotConcave : Laws::All, std::span(force, some), std::span(stiffness, some));
+      else if (!resistance_only_) path_forces(p, p + some, std::span(force, some), std::span(stiffness, some));
+      if (path_) std::copy_n(force, some, mean_force_.begin() + static_cast<std::ptrdiff_t>(p));
     }
     const bool listed = near != near_[chunk].end() && near->pair == static_cast<std::int32_t>(p);
     // Many pairs are too far apart for anything to act.

@@ -176,24 +176,33 @@ double StepAssembly::surface_pressure(const std::vector<double>& u) const {
 BoundaryPressures StepAssembly::boundary_pressures(const std::vector<double>& u) const {
   const std::size_t D = interactions_.rotation() ? 6 : 3;
   const double mu = liquid_.viscosity;
-  BoundaryPressures total;
-  for (const SliceState& slice : slice_states(u)) total.liquid += slice.pressure_drop * cell_.area();
-  for (int k = 0; k < static_cast<int>(radius_.size()); ++k) {
-    const double uz = u[k * D + 2];
-    if (!flow_) total.liquid -= mu * resistance::stokes_drag(radius_[k]) * (uz + film_.absorption);
-    if (interactions_.free_surface && protrusion_guess_[k] > 0) ++total.contacts;
-    if (rough_) {
-      total.substrate += rough_->force_along_z(k, laws_, mu, dt_, implicit_, film_.absorption, static_cast<int>(D), &u[k * D]);
-    } else if (interactions_.substrate) {
-      const SubstrateState s = substrate_state(k);
-      const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
-      total.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - wall_guess_[k]);
-      const bool uniform = interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform;
-      if (interactions_.lubrication()) {
-        const resistance::SqueezeStep squeeze = wall_squeeze(k);
-        total.substrate += mu * (squeeze.impulse / dt_ - squeeze.coefficient * (uz + (uniform ? film_.absorption : 0)));
+  std::vector<BoundaryPressures> parts(topology_.chunks().count());
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < topology_.chunks().count(); ++c)
+    for (int k = topology_.chunks().begin[c]; k < topology_.chunks().begin[c + 1]; ++k) {
+      BoundaryPressures& part = parts[c];
+      const double uz = u[k * D + 2];
+      if (!flow_) part.liquid -= mu * resistance::stokes_drag(radius_[k]) * (uz + film_.absorption);
+      if (interactions_.free_surface && protrusion_guess_[k] > 0) ++part.contacts;
+      if (rough_) {
+        part.substrate += rough_->force_along_z(k, laws_, mu, dt_, implicit_, film_.absorption, static_cast<int>(D), &u[k * D]);
+      } else if (interactions_.substrate) {
+        const SubstrateState s = substrate_state(k);
+        const double gap_end = position_[k].z() + dt_ * uz - radius_[k];
+        part.substrate += s.force - (implicit_ ? std::max(s.stiffness, 0.0) : 0) * (gap_end - wall_guess_[k]);
+        const bool uniform = interactions_.substrate->suction == forces::SubstrateParameters::Suction::Uniform;
+        if (interactions_.lubrication()) {
+          const resistance::SqueezeStep squeeze = wall_squeeze(k);
+          part.substrate += mu * (squeeze.impulse / dt_ - squeeze.coefficient * (uz + (uniform ? film_.absorption : 0)));
+        }
       }
     }
+  BoundaryPressures total;
+  for (const SliceState& slice : slice_states(u)) total.liquid += slice.pressure_drop * cell_.area();
+  for (const BoundaryPressures& part : parts) {
+    total.substrate += part.substrate;
+    total.liquid += part.liquid;
+    total.contacts += part.contacts;
   }
   if (interactions_.free_surface) total.surface = surface_pressure(u);
   total.substrate /= cell_.area();

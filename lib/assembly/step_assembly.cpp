@@ -50,7 +50,9 @@ StepAssembly::StepAssembly(const Interactions& interactions, const Particles& pa
   squeeze_.resize(pairs_.size());
   near_.resize(topology_.chunks().count());
   bracket_.resize(topology_.chunks().count());
+  acting_.resize(topology_.chunks().count());
   position_.resize(n);
+  sphere_.resize(n);
   protrusion_guess_.assign(n, 0.0);
   protrusion_end_.assign(n, 0.0);
   holding_force_.assign(n, 0.0);
@@ -92,10 +94,14 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     wall_squeeze_from_.resize(n);
   }
   if (two_step_ || split_) separation_.resize(pairs_.size());
-  if (two_step_) squeeze_from_.resize(pairs_.size());
+  if (two_step_) {
+    squeeze_from_.resize(pairs_.size());
+    gap_from_.resize(pairs_.size());
+  }
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < n; ++k) {
     position_[k] = (two_step_ ? two_step->from : position)[order_[k]];
+    sphere_[k] = {position_[k].x(), position_[k].y(), position_[k].z(), radius_[k]};
     resistance_height_[k] = (two_step_ ? two_step->predicted : position)[order_[k]].z();
     if (!force.empty()) external_force_[k] = force[order_[k]];
     if (interactions_.free_surface) protrusion_guess_[k] = protrusion[order_[k]];
@@ -112,12 +118,18 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       resistance_height_[k] = a + wall_guess_[k];
     }
   }
-  std::vector<TwoStepPoint> points(two_step_ ? n : 0);
+  // Only two-step: where particles are, were and are foretold, in engine order.
+  std::vector<Sphere> now(two_step_ ? n : 0), before(now.size()), predicted(now.size());
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::int32_t i = order_[k];
-    points[k] = {position[i], two_step->before[i], two_step->predicted[i]};
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const auto sphere = [&, a = radius_[k]](const Vec3& x) { return Sphere{x.x(), x.y(), x.z(), a}; };
+    now[k] = sphere(position[order_[k]]);
+    before[k] = sphere(two_step->before[order_[k]]);
+    predicted[k] = sphere(two_step->predicted[order_[k]]);
   }
+  all_act_ = newton_ || path_ || two_step_;
+  double reach = 0;  // of the colloidal forces
+  for (const auto& law : laws_) reach = std::max(reach, law->cutoff_gap());
   if (rough_) rough_->begin(position_, laws_);
   if (flow_) {
     const double height = two_step_ ? film.height_end : film.height_begin;
@@ -132,18 +144,20 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     near_[c].clear();
-    for (std::size_t p = topology_.pair_begin(c); p < topology_.pair_begin(c + 1); ++p) {
+    acting_[c].clear();
+    const std::size_t first = topology_.pair_begin(c), count = topology_.pair_begin(c + 1) - first;
+    if (two_step_) {
+      for (std::size_t p = first; p < first + count; p += law_pairs)
+        begin_two_step(c, p, std::min(law_pairs, first + count - p), {now, before, sphere_, predicted}, two_step->share);
+      continue;
+    }
+    separations(cell_, sphere_, std::span(pairs_).subspan(first, count), std::span(normal_).subspan(first, count),
+                std::span(gap_begin_).subspan(first, count), split_ ? std::span(separation_).subspan(first, count) : std::span<Vec3>());
+    for (std::size_t p = first; p < first + count; ++p) {
       const auto [i, j] = pairs_[p];
-      if (two_step_) {
-        begin_two_step(c, p, points[i], points[j], two_step->share);
-        continue;
-      }
-      const Vec3 d = cell_.minimum_image(position_[j] - position_[i]);
-      const double r = d.norm();
-      normal_[p] = d / r;
-      if (split_) separation_[p] = d;
-      gap_begin_[p] = guess_[p] = resistance_gap_[p] = r - radius_[i] - radius_[j];
-      if (interactions_.lubrication()) set_scalars(c, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap_begin_[p]));
+      const double gap = guess_[p] = resistance_gap_[p] = gap_begin_[p];
+      if (interactions_.lubrication()) set_scalars(c, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap));
+      if (!all_act_ && (squeeze_[p] > 0 || gap < reach)) acting_[c].push_back(static_cast<std::int32_t>(p));
     }
   }
   wall_.clear();

@@ -14,6 +14,7 @@
 
 #include "assembly/gap_guess.h"
 #include "assembly/interactions.h"
+#include "assembly/pair_separation.h"
 #include "assembly/rough_substrate.h"
 #include "assembly/slice_flow.h"
 #include "assembly/step_force.h"
@@ -129,14 +130,17 @@ class StepAssembly {
   double squeeze_weight(std::size_t p) const;         // taper on the singular part of a pair's squeeze resistance
   forces::PairGeometry geometry(std::size_t p) const;  // at the guess
   // What a step of the pair moves from: its gap then, and the gap whose logarithm its squeeze starts from (TwoStep::from).
-  double gap_from(std::size_t p) const;
+  double gap_from(std::size_t p) const { return two_step_ ? gap_from_[p] : gap_begin_[p]; }
   double squeeze_from(std::size_t p) const { return two_step_ ? squeeze_from_[p] : gap_begin_[p]; }
   forces::PairGeometry wall_geometry(int k) const;  // at the guess
   void set_scalars(int chunk, std::size_t p, const resistance::PairScalars&);
   StepForce pair_step_force(int chunk, std::size_t p) const;
   StepForce substrate_step_force(int k) const;
   double gap_alone(StepForce, const forces::PairGeometry&) const;
-  double farthest_off(const std::vector<double>& solution) const;  // largest |gap - guess|/guess
+  double farthest_off(const std::vector<double>& velocity) const;  // largest |gap - guess|/guess
+  // Gaps of some pairs at the step's end, and how far they moved apart along their normals.
+  void move_pairs(const std::vector<double>& velocity, std::size_t first, std::size_t count, double* gap, double* along) const;
+  std::vector<double> in_fours(const std::vector<double>& solution) const;  // velocities, four numbers a particle (pair_separation.h)
   // Terms of the plane and of the free surface at the heights where resistances are taken.
   resistance::BoundaryScalars wall_scalars(int k) const;
   resistance::BoundaryScalars surface_scalars(int k) const;
@@ -144,14 +148,13 @@ class StepAssembly {
   double approach_speed() const;  // of the surface towards particles at rest, um/ms
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
-  struct TwoStepPoint {
-    Vec3 now, before, predicted;
-  };
-  void begin_two_step(int chunk, std::size_t pair, const TwoStepPoint&, const TwoStepPoint&, double share);
+  // A run of a chunk's pairs, no more than law_pairs.
+  void begin_two_step(int chunk, std::size_t first, std::size_t count, const TwoStepSpheres&, double share);
   void path_forces(std::size_t begin, std::size_t end, std::span<double> force, std::span<double> stiffness) const;
   // Adds what the colloidal laws say of the pairs from `begin` to `end` at their guesses; no more than law_pairs of them.
   enum class Laws { All, Concave, NotConcave };
   void add_laws(std::size_t begin, std::size_t end, Laws, std::span<double> force, std::span<double> stiffness) const;
+  void add_laws(std::span<const std::int32_t> pairs, std::span<double> force, std::span<double> stiffness) const;  // all laws
   void add_laws(std::size_t begin, std::size_t end, std::span<forces::PairTerm>) const;
   static constexpr std::size_t law_pairs = 64;
   void follow_flow(const std::vector<double>& solution);
@@ -180,6 +183,7 @@ class StepAssembly {
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
   double prepared_temperature_ = -1;
   std::vector<Vec3> position_, external_force_;
+  std::vector<Sphere> sphere_;             // position_ and radius_ side by side
   std::optional<SliceFlow> flow_;
   std::optional<RoughSubstrate> rough_;    // in place of the plane
   std::vector<Vec3> normal_;               // one a pair
@@ -187,7 +191,7 @@ class StepAssembly {
   // What the motion of the step starts from (TwoStep::from): gap and separation; and the gap whose logarithm the squeeze starts from.
   // But in a two-step method all are those of the beginning.
   bool two_step_ = false;
-  std::vector<double> squeeze_from_;                      // one a pair, two-step only
+  std::vector<double> gap_from_, squeeze_from_;           // one a pair, two-step only
   std::vector<double> height_begin_, wall_squeeze_from_;  // one a particle, two-step only: its centre at the beginning
   SurfaceSearch search_;                   // of a pressure-limited surface
   double surface_end_ = 0;                 // height at the step's end, um
@@ -217,6 +221,10 @@ class StepAssembly {
     resistance::PairScalars scalars;
   };
   std::vector<std::vector<NearScalars>> near_;
+  // Where a step takes all at its beginning most pairs listed are too far apart for anything to act: those that are not, rising, one array
+  // a chunk.
+  bool all_act_ = true;
+  std::vector<std::vector<std::int32_t>> acting_;
   // One a particle, where they stay what they are all through a step; else empty.
   std::vector<resistance::BoundaryScalars> wall_, surface_;
 };

@@ -54,16 +54,18 @@ class LevelGrid {
     const Span x = periodic_span(p.x(), reach, 0), y = periodic_span(p.y(), reach, 1),
                z = open_span(p.z(), reach);
     for (std::int64_t dx = 0; dx < x.count; ++dx) {
-      const std::int64_t cx = (x.first + dx) % count_[0];
+      const std::int64_t cx = wrapped_cell(x.first + dx, 0);
       for (std::int64_t dy = 0; dy < y.count; ++dy) {
         // z runs fastest, so the cells of one column are one stretch of members.
-        const std::int64_t column = (cx * count_[1] + (y.first + dy) % count_[1]) * count_[2] + z.first;
+        const std::int64_t column = (cx * count_[1] + wrapped_cell(y.first + dy, 1)) * count_[2] + z.first;
         for (auto m = begin_[column]; m < begin_[column + z.count]; ++m) visit(members_[m]);
       }
     }
   }
 
  private:
+  // A span begins within the period and is no longer; a division would take as long as the cell.
+  std::int64_t wrapped_cell(std::int64_t c, int axis) const { return c < count_[axis] ? c : c - count_[axis]; }
   static double cells(double length, double edge) { return std::max(1.0, std::floor(length / edge)); }
 
   std::int64_t along(double coordinate, int axis) const {

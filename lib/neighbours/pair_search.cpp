@@ -12,7 +12,7 @@ namespace pigment::neighbours {
 namespace {
 
 // Waking threads for fewer takes longer than the search.
-constexpr std::size_t worth_threads = 2000;
+constexpr std::size_t worth_threads = 500;
 
 std::vector<LevelGrid> sort_into_levels(const Cell& cell, const Vec3Array& wrapped,
                                         const std::vector<double>& radius, const PairRange& range,

@@ -43,11 +43,10 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
   if (guessed) to_strided<D>(x_out, x.data());
   const bool flows = !system.mean_flow.empty();
   MeanFlowSums sums(system.mean_flow, count);
-  std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count);
+  std::vector<double> partial_bb(count), partial_rz(count), partial_pap(count), partial_energy(count), partial_bound(count);
   SolveReport report;
-  double rz = 0, bb = 0, target = 0;
-  double energy = 0;  // x A x so far; what is missing is e A e
-  bool done = false, settled = false;
+  double last_rz = 0, scale = 0;
+  bool settled = false;
   const auto begin_of = [&](int c) { return topology.chunks().begin[c]; };
   // z = M^-1 r by all threads together, each chunk's part of r . z.
   const auto precondition = [&](std::vector<double>& partial) {
@@ -114,29 +113,25 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     }
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) std::copy(z.data() + begin_of(c) * S, z.data() + begin_of(c + 1) * S, p.data() + begin_of(c) * S);
-#pragma omp single
-    {
-      const double all = sum_of(partial_bb);
-      bb = std::min(all, options.largest_scale);
-      rz = guess ? sum_of(partial_rz) : all;
-      target = options.tolerance * options.tolerance * bb;
-      energy = sum_of(partial_energy);
-      done = !(rz > 0);
-    }
+    // Every thread sums up for itself, in the same order: cheaper than to wait for one that does.
+    const double all = sum_of(partial_bb), bb = std::min(all, options.largest_scale), target = options.tolerance * options.tolerance * bb;
+    double rz = guess ? sum_of(partial_rz) : all;
+    double energy = sum_of(partial_energy);  // x A x so far; what is missing is e A e
+    bool done = !(rz > 0), agreed = false;
+    int iterations = 0;
     while (!done) {
       if (rz <= target) {
+        const double most = bound_over_tolerance * options.tolerance;
+        agreed = most >= 1;  // the bound would say nothing
+        if (agreed) break;
 #pragma omp for schedule(static)
         for (int c = 0; c < count; ++c) {
           double sum = 0;
           for (int k = begin_of(c); k < begin_of(c + 1); ++k) sum += energy_bound<D>(system.particle[k], &r[static_cast<std::size_t>(k) * S]);
-          partial_energy[c] = sum;
+          partial_bound[c] = sum;
         }
-        const double most = bound_over_tolerance * options.tolerance;
-        if (sum_of(partial_energy) <= most * most * energy) {
-#pragma omp single
-          settled = true;
-          break;
-        }
+        agreed = sum_of(partial_bound) <= most * most * energy;
+        if (agreed) break;
       }
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c) apply_chunk<D>(system, c, p.data(), ap.data(), sums);
@@ -164,22 +159,26 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
 #pragma omp for schedule(static)
       for (int c = 0; c < count; ++c)
         for (std::size_t q = static_cast<std::size_t>(begin_of(c)) * S; q < static_cast<std::size_t>(begin_of(c + 1)) * S; ++q) p[q] = z[q] + beta * p[q];
-#pragma omp single
-      {
-        energy += alpha * rz;
-        rz = next;
-        ++report.iterations;
-        done = !(rz > 0) || report.iterations >= options.max_iterations;  // a NaN also ends the loop
-      }
+      energy += alpha * rz;
+      rz = next;
+      ++iterations;
+      done = !(rz > 0) || iterations >= options.max_iterations;  // a NaN also ends the loop
+    }
+#pragma omp master
+    {
+      last_rz = rz;
+      scale = bb;
+      settled = agreed;
+      report.iterations = iterations;
     }
   }
   x_out.resize(size);
   from_strided<D>(x.data(), x_out);
-  report.scale = bb;
-  report.residual = bb > 0 ? std::sqrt(rz / bb) : 0;
-  report.converged = settled || (std::isfinite(rz) && rz <= 0);
+  report.scale = scale;
+  report.residual = scale > 0 ? std::sqrt(last_rz / scale) : 0;
+  report.converged = settled || (std::isfinite(last_rz) && last_rz <= 0);
   if (!report.converged)
-    report.message = std::isfinite(rz) ? "no convergence in " + std::to_string(report.iterations) + " iterations"
+    report.message = std::isfinite(last_rz) ? "no convergence in " + std::to_string(report.iterations) + " iterations"
                                        : "the residual is not a finite number";
   return report;
 }

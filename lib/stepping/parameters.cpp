@@ -25,7 +25,7 @@ SteppingParameters read_stepping(config::Node node) {
     node.accept_word("until", "auto");  // the end of the dewatering curve
   p.stop_when = node.choice<P::StopWhen>("stop_when", {{"immobile", P::StopWhen::Immobile}, {"stationary", P::StopWhen::Stationary}, {"until", P::StopWhen::Until}}, "immobile");
   if (node.has("solver_tolerance") && !node.is_word("solver_tolerance", "auto"))
-    p.solver_tolerance = node.number("solver_tolerance", config::strictly_between(0, 0.1));
+    p.solver_tolerance = node.number("solver_tolerance", config::strictly_between(0, 1));
   else
     node.accept_word("solver_tolerance", "auto");
   p.immobile_rate = node.number("immobile_rate", 1e-2, config::strictly_between(0, 1));

@@ -39,8 +39,8 @@ print(f"| {n} | {scheme} | {duration:g} s | {1e6 * step:.0f} us | {1e3 * took / 
 PY
 }
 thousand=(--set layer.width="5 um" --set layer.thickness="8.727 um")
-# What cheaper runs leave out: rotation, and most of the solver's tolerance; then the noise, the step's average and far lubrication. pairs-lean and
-# pairs-coarse of the study are such pairs: what that costs in error.
+# What cheaper runs leave out: rotation, and most of the solver's tolerance; then all lubrication, with which the noise that obeys fluctuation and dissipation is the
+# source's, and the average along the step.
 options() { sed 's/^/--set=/' "$@"; }
 mapfile -t lean < <(options "$here/lean.options")
 mapfile -t coarse < <(options "$here/lean.options" "$here/coarse.options")
@@ -56,5 +56,5 @@ row thousand-lean "fluctuation_dissipation, no rotation, solves to 1e-2" 30 "0.1
 row long "fluctuation_dissipation, rotation" 300 "0.1 ms" "${rotation[@]}"
 row long-thousand "fluctuation_dissipation, rotation" 300 "0.1 ms" "${thousand[@]}" "${rotation[@]}"
 row long-lean "fluctuation_dissipation, no rotation, solves to 1e-2" 300 "0.1 ms" "${thousand[@]}" "${lean[@]}"
-row long-coarse "k_brown, near pairs, solves to 1e-2, linearly_implicit" 300 "0.1 ms" "${thousand[@]}" "${coarse[@]}"
+row long-coarse "k_brown, Stokes drag alone, linearly_implicit" 300 "0.1 ms" "${thousand[@]}" "${coarse[@]}"
 if ((${#done_rows[@]} > 1)); then /usr/bin/python3 "$here/cost_errors.py" "$folder" "${done_rows[@]}"; fi
