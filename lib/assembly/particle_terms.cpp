@@ -66,7 +66,7 @@ StepForce StepAssembly::substrate_step_force(int k) const {
 StepAssembly::SubstrateState StepAssembly::substrate_state(int k) const {
   if (path_) return path_substrate_state(k);
   SubstrateState s{position_[k].z() - radius_[k], split_ ? substrate_standing_force_[k] : 0, 0};
-  if (interactions_.substrate->colloidal)
+  if (interactions_.substrate->colloidal && wall_guess_[k] < colloidal_reach_)
     for (const auto& law : laws_) {
       if (split_ && law->concave()) continue;
       const forces::PairTerm t = law->switched(wall_geometry(k));

@@ -47,7 +47,7 @@ double next_guess(double gap, double guess, bool kept_open) { return kept_open ?
 
 forces::PairTerm StepAssembly::substrate_term(const forces::PairGeometry& g) const {
   forces::PairTerm sum;
-  if (interactions_.substrate->colloidal)
+  if (interactions_.substrate->colloidal && g.gap < colloidal_reach_)
     for (const auto& law : laws_) {
       const forces::PairTerm t = law->switched(g);
       sum.energy += t.energy;

@@ -128,8 +128,8 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     predicted[k] = sphere(two_step->predicted[order_[k]]);
   }
   all_act_ = newton_ || path_ || two_step_;
-  double reach = 0;  // of the colloidal forces
-  for (const auto& law : laws_) reach = std::max(reach, law->cutoff_gap());
+  colloidal_reach_ = 0;
+  for (const auto& law : laws_) colloidal_reach_ = std::max(colloidal_reach_, law->cutoff_gap());
   if (rough_) rough_->begin(position_, laws_);
   if (flow_) {
     const double height = two_step_ ? film.height_end : film.height_begin;
@@ -144,7 +144,6 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     near_[c].clear();
-    acting_[c].clear();
     const std::size_t first = topology_.pair_begin(c), count = topology_.pair_begin(c + 1) - first;
     if (two_step_) {
       for (std::size_t p = first; p < first + count; p += law_pairs)
@@ -153,12 +152,20 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     }
     separations(cell_, sphere_, std::span(pairs_).subspan(first, count), std::span(normal_).subspan(first, count),
                 std::span(gap_begin_).subspan(first, count), split_ ? std::span(separation_).subspan(first, count) : std::span<Vec3>());
+    for (std::size_t p = first; p < first + count; ++p) guess_[p] = resistance_gap_[p] = gap_begin_[p];
+    if (interactions_.lubrication())
+      for (std::size_t p = first; p < first + count; ++p)
+        set_scalars(c, p, resistance::pair_term(interactions_.hydrodynamics, radius_[pairs_[p].i], radius_[pairs_[p].j], gap_begin_[p]));
+    if (all_act_) continue;
+    // Which of them is hard to foretell: no branch.
+    std::vector<std::int32_t>& acting = acting_[c];
+    acting.resize(count);
+    std::size_t found = 0;
     for (std::size_t p = first; p < first + count; ++p) {
-      const auto [i, j] = pairs_[p];
-      const double gap = guess_[p] = resistance_gap_[p] = gap_begin_[p];
-      if (interactions_.lubrication()) set_scalars(c, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], gap));
-      if (!all_act_ && (squeeze_[p] > 0 || gap < reach)) acting_[c].push_back(static_cast<std::int32_t>(p));
+      acting[found] = static_cast<std::int32_t>(p);
+      found += static_cast<std::size_t>(squeeze_[p] > 0) | static_cast<std::size_t>(gap_begin_[p] < colloidal_reach_);
     }
+    acting.resize(found);
   }
   wall_.clear();
   surface_.clear();

@@ -181,7 +181,7 @@ class StepAssembly {
   std::vector<double> substrate_standing_force_;
   mutable std::vector<double> memory_;  // resistance over resistance and stiffness times the step, one a pair
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
-  double prepared_temperature_ = -1;
+  double prepared_temperature_ = -1, colloidal_reach_ = 0;  // reach: gap beyond which no law acts, um
   std::vector<Vec3> position_, external_force_;
   std::vector<Sphere> sphere_;             // position_ and radius_ side by side
   std::optional<SliceFlow> flow_;

@@ -49,10 +49,8 @@ class PairBlocks {
   void push_back(const Pair& p) {
     const std::size_t lane = count_ % lanes;
     if (lane == 0) {
-      blocks_.emplace_back();
+      blocks_.push_back(empty_block);
       Block& b = blocks_.back();
-      for (auto& row : b.number)
-        for (double& v : row) v = 0;
       for (int q = 0; q < lanes; ++q) b.i[q] = b.j[q] = b.target[q] = p.i;  // what adds nothing adds it to itself
     }
     Block& b = blocks_.back();
@@ -102,6 +100,7 @@ class PairBlocks {
   iterator end() const { return {this, count_}; }
 
  private:
+  static constexpr Block empty_block{};
   std::vector<Block> blocks_;
   std::size_t count_ = 0;
 };

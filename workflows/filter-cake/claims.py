@@ -141,9 +141,9 @@ for k, c in enumerate(gcc):
 axis.set(xlabel="mean diameter (µm)", ylabel="height (µm)", ylim=(0, None))
 axis.legend()
 
-figure, axis = study.figure("drag", "Height of the mass centre over that in the cake, against the time since the flow became weak, over the time of diffusion d²/D: isolated drag, hindered drag and the source's noise")
+figure, axis = study.figure("drag", "Height of the mass centre over that in the cake, against the time since the flow became weak, over the time of diffusion d²/D: isolated drag, hindered drag, the source's noise, and coarse runs of 300 s")
 for c in cakes.values():
-    if c.size in ("d0.2", "d0.5") and c.temperature == 20 and c.flow in (1, 10) and c.extra in ("", "k_brown"):
+    if c.size in ("d0.2", "d0.5") and c.temperature == 20 and c.flow in (1, 10) and c.extra in ("", "k_brown", "coarse"):
         late = c.time >= c.turn
         diffusivity = 1.380649e-23 * 293.15 / (6 * np.pi * 1.0016e-3 * 0.5e-6 * c.diameter) * 1e12
         label = f"{c.size[1:]} µm, {c.flow:g}, " + (c.extra or c.drag)
@@ -168,7 +168,7 @@ for drag in ("stokes", "hindered"):
     study.claim("4.1", f"The size of the particles has a significant influence on the cake ({drag} drag)", "Fig. 19, text" if drag == "stokes" else "not in the source; the drag of a packed bed",
                 "; ".join(text(c) for c in ends) if len(ends) == 2 else NO_RUN, f"rise at 1 g/m2/s of 0.2 um above that of 2 um by more than {100 * RISES:.0f} %, beyond two standard errors",
                 bool(gap - 2 * error > RISES) if len(ends) == 2 else None)
-edges = {name: c.edge(c.after) for name, c in cakes.items() if c.extra != "fine"}
+edges = {name: c.edge(c.after) for name, c in cakes.items() if c.extra not in ("fine", "coarse")}
 sharp, gradual = min(edges, key=edges.get), max(edges, key=edges.get)
 study.claim("4.1", "Both mechanisms occur: a sharp filter cake and thickening with a gradient", "Fig. 18, text", f"solids fall from 3/4 to 1/4 within {edges[sharp]:.1f} diameters ({sharp}) to {edges[gradual]:.1f} ({gradual})",
             "some run below 1.5 mean diameters and some above 3", bool(edges[sharp] < 1.5 and edges[gradual] > 3))
@@ -270,4 +270,14 @@ for c in steps:
     (a, ea), (b, eb) = coarse.mean_centre(coarse.after), c.mean_centre(c.after)
     study.claim("4.1", "The step of these runs is short enough", "not in the source", f"{c.size[1:]} um at {c.flow:g} g/m2/s: mass centre {100 * (a / b - 1):+.1f} ± {100 * np.hypot(ea, eb) / b:.1f} % off that at half the step",
                 f"less than {100 * STAYS:.0f} % off, beyond two standard errors: what counts as no change above", bool(abs(a / b - 1) < STAYS + 2 * np.hypot(ea, eb) / b))
+for c in (c for c in cakes.values() if c.extra == "coarse"):
+    whole = cake(c.size, f"{c.flow:g}")
+    # At the same times since the flow became weak: those of the other's last fifth.
+    since = whole.time[whole.after] - whole.turn
+    frames = np.flatnonzero((c.time - c.turn >= since[0]) & (c.time - c.turn <= since[-1] + 1e-9))
+    (a, ea), (b, eb) = c.mean_centre(frames), whole.mean_centre(whole.after)
+    took = float((study.results / c.case / ".made" / "consolidate.took").read_text().split()[0])
+    study.claim("4.1", f"A coarse run is within a tenth: {c.size[1:] if c.size != 'gcc' else c.size} at {c.flow:g} g/m2/s", "not in the source", f"mass centre {100 * (a / b - 1):+.1f} ± {100 * np.hypot(ea, eb) / b:.1f} % off that with the full noise, {since[0]:.3g} to {since[-1]:.3g} s after the strong flow; "
+                f"at 300 s {100 * c.rise()[0]:+.0f} ± {100 * c.rise()[1]:.0f} % above its own cake; {len(c.radius)} spheres, {took:.0f} s", "less than 10 % off, beyond two standard errors",
+                bool(abs(a / b - 1) < RISES + 2 * np.hypot(ea, eb) / b))
 study.finish()
