@@ -277,7 +277,7 @@ for c in (c for c in cakes.values() if c.extra == "coarse"):
     frames = np.flatnonzero((c.time - c.turn >= since[0]) & (c.time - c.turn <= since[-1] + 1e-9))
     (a, ea), (b, eb) = c.mean_centre(frames), whole.mean_centre(whole.after)
     took = float((study.results / c.case / ".made" / "consolidate.took").read_text().split()[0])
-    study.claim("4.1", f"A coarse run is within a tenth: {c.size[1:] if c.size != 'gcc' else c.size} at {c.flow:g} g/m2/s", "not in the source", f"mass centre {100 * (a / b - 1):+.1f} ± {100 * np.hypot(ea, eb) / b:.1f} % off that with the full noise, {since[0]:.3g} to {since[-1]:.3g} s after the strong flow; "
+    study.claim("4.1", f"A coarse run is within a tenth: {c.size[1:] + ' um' if c.size != 'gcc' else c.size} at {c.flow:g} g/m2/s", "not in the source", f"mass centre {100 * (a / b - 1):+.1f} ± {100 * np.hypot(ea, eb) / b:.1f} % off that with the full noise, {since[0]:.3g} to {since[-1]:.3g} s after the strong flow; "
                 f"at 300 s {100 * c.rise()[0]:+.0f} ± {100 * c.rise()[1]:.0f} % above its own cake; {len(c.radius)} spheres, {took:.0f} s", "less than 10 % off, beyond two standard errors",
                 bool(abs(a / b - 1) < RISES + 2 * np.hypot(ea, eb) / b))
 study.finish()
