@@ -121,15 +121,13 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
     int iterations = 0;
     while (!done) {
       if (rz <= target) {
-        const double most = bound_over_tolerance * options.tolerance;
-        agreed = most >= 1;  // the bound would say nothing
-        if (agreed) break;
 #pragma omp for schedule(static)
         for (int c = 0; c < count; ++c) {
           double sum = 0;
           for (int k = begin_of(c); k < begin_of(c + 1); ++k) sum += energy_bound<D>(system.particle[k], &r[static_cast<std::size_t>(k) * S]);
           partial_bound[c] = sum;
         }
+        const double most = bound_over_tolerance * options.tolerance;
         agreed = sum_of(partial_bound) <= most * most * energy;
         if (agreed) break;
       }
