@@ -195,8 +195,7 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   if (frames.count > 1)
     measured = measure_intervals(kept, all, [&](const Snapshot& before, const Snapshot& after) {
       return Measured{profile_solids(after, solids, parameters, columns), non_affine_interval(before, after),
-                      redistribution_between(before.position, after.position, solids.radius, before.cell.height,
-                                             after.cell.height)};
+                      redistribution_between(before.position, after.position, solids.radius, before.cell, after.cell.height)};
     });
   else
     first = frames.read(0);

@@ -133,7 +133,8 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
   const auto store_frame = [&] {
     const double drained = stepper.height_at(state.time), height = lags ? state.surface_height : drained;
     if (state.frame > 0) {
-      Redistribution last = redistribution_between(state.frame_position, state.position, problem.particles.radius, state.frame_height, height);
+      Redistribution last = redistribution_between(state.frame_position, state.position, problem.particles.radius,
+                                                   {problem.cell.width_x, problem.cell.width_y, state.frame_height}, height);
       // A surface that lags is held against what the dewatering takes.
       if (lags) last.fall = stepper.height_at(static_cast<double>(state.frame - 1) * settings.output_every) - drained;
       shrunk = add_to_window(state.redistribution, std::move(last), problem.stepping.immobile_shrinkage);
