@@ -8,7 +8,7 @@
 
 namespace pigment::assembly {
 
-void StepAssembly::begin_two_step(int chunk, std::size_t first, std::size_t count, const TwoStepSpheres& spheres, double share) {
+void StepAssembly::begin_two_step(int chunk, std::size_t first, std::size_t count, const TwoStepSpheres& spheres, const TwoStep& two_step) {
   double before[law_pairs], foretold[law_pairs];
   const auto of = [&](auto& array) { return std::span(array).subspan(first, count); };
   separations(cell_, spheres, std::span(pairs_).subspan(first, count),
@@ -16,12 +16,15 @@ void StepAssembly::begin_two_step(int chunk, std::size_t first, std::size_t coun
   for (std::size_t p = first; p < first + count; ++p) {
     const auto [i, j] = pairs_[p];
     const double gap = gap_begin_[p], gap_before = before[p - first];
-    double guess = foretold[p - first];
-    if (gap > 0) guess = std::max(guess, largest_fall * gap);
-    guess_[p] = resistance_gap_[p] = squeeze_from_[p] = guess;
+    guess_[p] = resistance_gap_[p] = foretold[p - first];
+    if (gap > 0) {
+      guess_[p] = first_guess(gap, foretold[p - first], two_step.range);
+      resistance_gap_[p] = std::max(foretold[p - first], largest_fall * gap);
+    }
+    squeeze_from_[p] = resistance_gap_[p];
     if (!interactions_.lubrication()) continue;
-    set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], guess));
-    if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(share * std::log(gap / gap_before)) : 0;
+    set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], resistance_gap_[p]));
+    if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(two_step.share * std::log(gap / gap_before)) : 0;
   }
 }
 

@@ -114,8 +114,8 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
         continue;
       }
       wall_squeeze_from_[k] = squeeze_from(gap, gap_before);
-      wall_guess_[k] = std::max(resistance_height_[k] - a, largest_fall * gap);
-      resistance_height_[k] = a + wall_guess_[k];
+      wall_guess_[k] = first_guess(gap, resistance_height_[k] - a, two_step->range);
+      resistance_height_[k] = a + std::max(resistance_height_[k] - a, largest_fall * gap);
     }
   }
   // Only two-step: where particles are, were and are foretold, in engine order.
@@ -147,7 +147,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     const std::size_t first = topology_.pair_begin(c), count = topology_.pair_begin(c + 1) - first;
     if (two_step_) {
       for (std::size_t p = first; p < first + count; p += law_pairs)
-        begin_two_step(c, p, std::min(law_pairs, first + count - p), {now, before, sphere_, predicted}, two_step->share);
+        begin_two_step(c, p, std::min(law_pairs, first + count - p), {now, before, sphere_, predicted}, *two_step);
       continue;
     }
     separations(cell_, sphere_, std::span(pairs_).subspan(first, count), std::span(normal_).subspan(first, count),

@@ -73,6 +73,7 @@ struct TwoStep {
   const Vec3Array& before;          // where the last step began
   const Vec3Array& from;
   const Vec3Array& predicted;       // at the step's end, to second order: where axes and resistances are taken
+  double range = 5e-3;              // of a gap, um, over which forces change: the Debye length
 };
 
 class StepAssembly {
@@ -149,7 +150,7 @@ class StepAssembly {
   double surface_pressure(const std::vector<double>& solution) const;
   void begin_path();
   // A run of a chunk's pairs, no more than law_pairs.
-  void begin_two_step(int chunk, std::size_t first, std::size_t count, const TwoStepSpheres&, double share);
+  void begin_two_step(int chunk, std::size_t first, std::size_t count, const TwoStepSpheres&, const TwoStep&);
   void path_forces(std::size_t begin, std::size_t end, std::span<double> force, std::span<double> stiffness) const;
   // Adds what the colloidal laws say of the pairs from `begin` to `end` at their guesses; no more than law_pairs of them.
   enum class Laws { All, Concave, NotConcave };

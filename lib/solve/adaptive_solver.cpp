@@ -6,16 +6,18 @@ namespace pigment::solve {
 
 namespace {
 
-// Iterations of block Jacobi that cost about as much as the network's factor: of 4,700 uncharged particles 14 ms against 0.24 ms; of more the
-// factor's share grows, as does what it saves.
+// Iterations of block Jacobi before a network is tried whose cost is not known yet.
 constexpr int least_patience = 60, particles_per_iteration = 80;
 // A network fits no longer where more than `most_changed` of its stiff pairs are stiffer or softer by `times_changed` than it has them, each
 // of which costs an iteration or so, or where a solve takes more than `stale` iterations.
 constexpr int most_changed = 10, stale = 25;
 constexpr double times_changed = 3;
-// A pair's part in an iteration of block Jacobi takes the time of so many of the factor's multiply-adds: 0.36 ms of 7,070 particles' 90,000 pairs
-// beside 65 of them in a nanosecond, 0.24 ms and 48 of 4,700's 60,000 (two threads). Solves with a factor cost about as much as it does.
-constexpr double work_of_pair = 250;
+// A pair's part in an iteration of block Jacobi takes the time of so many of the factor's multiply-adds, its order and the solves with it
+// included: in a jam of 7,070 particles with 90,000 pairs 0.4 ms beside 55 to 75 ms for 1.5e9 of them, in an uncharged layer of 4,700 with
+// 42,500 pairs 0.2 ms beside 4.5 to 7 ms for 1e8 (two threads).
+constexpr double work_of_pair = 100;
+// A layer is stiff where block Jacobi took so many times what a network costs.
+constexpr double much_dearer = 1.5;
 // The network's norm is nearly that of the error's energy, which block Jacobi's does not see: at the same tolerance an uncharged layer's
 // solves left 0.1 % of the energy norm with the one and 3 % with the other.
 constexpr double network_tolerance = 10;
@@ -30,7 +32,8 @@ SolveReport AdaptiveSolver::solve(const PairSystem& system, std::vector<double>&
   if (stiff_ && (outgrown || (!network_.ready() && !refused_))) make(system);
   const bool had_network = network_.ready();
   if (had_network) first = with_network;
-  const int patience = std::max(least_patience, static_cast<int>(system.topology->particles()) / particles_per_iteration);
+  const int patience =
+      network_cost_ > 0 ? network_cost_ : std::max(least_patience, static_cast<int>(system.topology->particles()) / particles_per_iteration);
   first.max_iterations = refused_ ? options.max_iterations : std::min(options.max_iterations, had_network ? stale : patience);
   SolveReport report = conjugate_gradients(system, x, first, had_network ? &network_ : nullptr);
   if (!had_network) {
@@ -45,12 +48,15 @@ SolveReport AdaptiveSolver::solve(const PairSystem& system, std::vector<double>&
   make(system);
   if (!had_network && network_.ready())
     stiff_ = (jacobi_failures_ > 1 && 2 * jacobi_failures_ > jacobi_solves_) ||
-             network_.work() * jacobi_solves_ < work_of_pair * static_cast<double>(system.topology->pairs()) * jacobi_iterations_;
+             jacobi_iterations_ > much_dearer * network_cost_ * jacobi_solves_;
   report = network_.ready() ? conjugate_gradients(system, x, with_network, &network_) : conjugate_gradients(system, x, options);
   report.iterations += before;
   return report;
 }
 
-void AdaptiveSolver::make(const PairSystem& system) { refused_ = !network_.factorize(system).empty(); }
+void AdaptiveSolver::make(const PairSystem& system) {
+  refused_ = !network_.factorize(system).empty();
+  if (!refused_) network_cost_ = 1 + static_cast<int>(network_.work() / (work_of_pair * static_cast<double>(system.topology->pairs())));
+}
 
 }  // namespace pigment::solve

@@ -31,7 +31,7 @@ class BackwardDifferentiation final : public Integrator {
       from[k] = state.position[k] + share * state.last_step * u;
       predicted[k] = state.position[k] + dt * expected;
     }
-    const assembly::TwoStep two_step{share, before, from, predicted};
+    const assembly::TwoStep two_step{share, before, from, predicted, context.gap_scale_at(state.time)};
     StepStart start{state.position, state.protrusion, state.time, dt, {state.step}, state.surface_height, state.surface_velocity};
     start.two_step = &two_step;
     start.last_step = state.last_step;

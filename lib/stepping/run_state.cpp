@@ -40,7 +40,7 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
           {"interval", interval}};
 }
 
-std::map<std::string, std::vector<std::int64_t>> RunState::integers() const { return {{"counters", {step, frame, stiff ? 1 : 0}}}; }
+std::map<std::string, std::vector<std::int64_t>> RunState::integers() const { return {{"counters", {step, frame, solver.stiff ? 1 : 0, solver.network_cost}}}; }
 
 RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
                         const std::map<std::string, std::vector<std::int64_t>>& i) {
@@ -57,7 +57,7 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   for (std::size_t q = 0; q < 3; ++q) s.end_pressure[q] = scalars.at(8 + q);
   s.step = i.at("counters").at(0);
   s.frame = i.at("counters").at(1);
-  s.stiff = i.at("counters").at(2) != 0;
+  s.solver = {i.at("counters").at(2) != 0, static_cast<int>(i.at("counters").at(3))};
   s.position = vectors(a.at("position"));
   s.velocity = vectors(a.at("velocity"));
   s.angular_velocity = vectors(a.at("angular_velocity"));

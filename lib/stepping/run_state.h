@@ -9,6 +9,7 @@
 
 #include "base/vec.h"
 #include "model/redistribution.h"
+#include "solve/adaptive_solver.h"
 
 namespace pigment::stepping {
 
@@ -27,7 +28,7 @@ struct RunState {
   double surface_height = 0;        // um, of the free surface: the dewatering's, or where a pressure-limited one lags behind
   double surface_velocity = 0;      // um/ms, of the last step
   std::array<double, 3> end_pressure{};  // pN/um^2, at the end of the last step (stepping/integrator.h)
-  bool stiff = false;               // whether the last step's solver needed its network of stiff pairs
+  solve::SolverMemory solver;       // what the last step's solver leaves to the next one's
   std::vector<double> protrusion;   // guess for the free surface, um
   Vec3Array list_reference;         // positions at which the neighbour list was made
   double list_temperature = 0;      // K, of the liquid then: ranges follow it

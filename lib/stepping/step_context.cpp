@@ -17,6 +17,7 @@ namespace {
 // Beside them a pressure-limited surface looks for its height, and the rest follows each time.
 constexpr int most_refinements = 25, most_with_search = 60, long_refinement = 3;
 constexpr double near_share = 0.2;  // of the error that the step may make
+constexpr double loosest = 20;      // over the solver's tolerance
 // Bonds that are still thrown about by more than their length after so many passes seldom settle in twice as many: a shorter step is
 // the quicker way.
 constexpr int hopeless = 10;
@@ -32,6 +33,8 @@ Liquid StepContext::liquid_at_time(double t) const {
   return liquid_at(problem_.interactions.liquid,
                    problem_.dewatering.temperature_at(t, problem_.interactions.liquid.temperature));
 }
+
+double StepContext::gap_scale_at(double time) const { return gap_scale(problem_.interactions, liquid_at_time(time)); }
 
 double StepContext::height_at(double t) const {
   if (!problem_.interactions.free_surface || problem_.dewatering.time.empty()) return problem_.cell.height;
@@ -218,7 +221,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   gap_scale_ = gap_scale(problem_.interactions, liquid);
   const bool thermal = noisy && problem_.interactions.brownian->model == forces::BrownianParameters::Model::FluctuationDissipation;
   const Vec3Array force = noisy && !thermal ? brownian_force(start.noise.step, start.step, liquid) : Vec3Array{};
-  solver_.begin_step(stiff_);
+  solver_.begin_step(memory_);
   solve::ConjugateGradientOptions options{solver_tolerance(problem_.stepping, noisy), 5000};
   assembly_->begin(start.position, film(start), liquid, start.two_step ? start.span : start.step, treatment, force, start.protrusion, start.two_step);
   if (thermal) {
@@ -226,10 +229,11 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     assembly_->set_random_force(
         assembly::thermal_force(system_, id_, problem_.seed, start.noise, std::sqrt(2 * liquid.thermal_energy() / start.step)));
   }
-  // The first pass of a path average only says where half-way is.
-  const bool sketch = treatment == assembly::Treatment::PathAverage;
-  solve::ConjugateGradientOptions rough = options;
-  rough.tolerance = std::min(10 * options.tolerance, 0.1);
+  // The first pass of a path average only says where half-way is. Newton's method gains nothing from a solution that is far better than
+  // its linearisation: while gaps come out further off than the step may be wrong, solves are as much looser, and the last never is. Where
+  // particles bond at every touch that would not do: which bond tears is decided in early passes.
+  const bool sketch = treatment == assembly::Treatment::PathAverage, inexact = treatment == assembly::Treatment::Newton && !noisy && !problem_.interactions.pressure_limited();
+  double looser = sketch ? 10 : inexact ? loosest : 1;
   StepSolution s;
   s.velocity = std::move(guess);
   if (!s.velocity.empty()) assembly_->turn_axes(s.velocity);
@@ -237,7 +241,9 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   double farthest = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most; ++pass) {
     assembly_->build(system_);
-    s.solve = solver_.solve(system_, s.velocity, sketch && pass == 0 ? rough : options);
+    solve::ConjugateGradientOptions now = options;
+    now.tolerance = std::max(now.tolerance, std::min(looser * now.tolerance, 0.1));
+    s.solve = solver_.solve(system_, s.velocity, now);
     if (s.solves == 0) options.largest_scale = s.solve.scale;
     s.iterations += s.solve.iterations;
     ++s.solves;
@@ -250,7 +256,9 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     const bool unsettled = pass >= hopeless && (s.check.crossed || s.check.farthest > 1), torn = pass >= 3 && s.check.farthest > std::max(runaway, farthest);
     if (treatment == assembly::Treatment::ConvexSplitting && (unsettled || torn)) return s;
     farthest = s.check.farthest;
-    if (s.check.refine && !near) continue;
+    const bool loose = inexact && looser > 1;
+    looser = inexact ? std::clamp(miss / problem_.stepping.tolerance, 1.0, loosest) : 1;
+    if (loose || (s.check.refine && !near)) continue;
     // Without lubrication nothing keeps spheres apart but their forces, and a scene may have none.
     s.good = !s.check.crossed || !problem_.interactions.lubrication();
     break;

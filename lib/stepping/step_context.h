@@ -64,6 +64,8 @@ class StepContext {
   void in_file_order(const std::vector<double>& solution, Vec3Array& velocity, Vec3Array& angular) const;
   // Gap of every listed pair at these positions (file order), um.
   std::vector<double> gaps(const Vec3Array& position) const;
+  // The scene's Debye length at the liquid's temperature then, um (gap_scale).
+  double gap_scale_at(double time) const;
   // A listed pair's particles, file order.
   std::pair<std::int32_t, std::int32_t> pair(std::size_t p) const { return {list_.order[list_.pairs[p].i], list_.order[list_.pairs[p].j]}; }
   // The height z of a particle, brought back between the surface (or the height safe_z, where that is above it) and a fifth of
@@ -88,9 +90,9 @@ class StepContext {
   const std::vector<double>& memory_of_last_step() const { return assembly_->memory(); }
   const std::vector<double>& gaps_of_last_step() const { return assembly_->gaps(); }
 
-  // Whether solves are to begin with the solver's network of stiff pairs, and whether the last one had it (solve/adaptive_solver.h).
-  void expect_stiff(bool stiff) { stiff_ = stiff; }
-  bool was_stiff() const { return solver_.is_stiff(); }
+  // What the solver knows at the beginning of a step, and at the last one's end (solve/adaptive_solver.h).
+  void remember(solve::SolverMemory memory) { memory_ = memory; }
+  solve::SolverMemory memory() const { return solver_.memory(); }
 
   // Why a step of this length failed: step, time, pair, radii, gap, force and a step that would do.
   std::string describe_failure(const RunState&, double dt, const StepSolution&) const;
@@ -106,7 +108,8 @@ class StepContext {
   std::vector<std::int64_t> id_;  // engine order
   solve::PairSystem system_;
   solve::AdaptiveSolver solver_;
-  bool listed_within_step_ = false, stiff_ = false;
+  solve::SolverMemory memory_;
+  bool listed_within_step_ = false;
   double gap_scale_ = 0;  // um, at the temperature of the step solved last
 };
 

@@ -56,7 +56,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
   else if (dt > 0.5 * longest) dt = 0.5 * longest;  // two even steps rather than a sliver at the end
   StepReport report;
   for (;; ++report.rejected) {
-    context_.expect_stiff(state.stiff && state.step % look_again != 0);
+    context_.remember({state.solver.stiff && state.step % look_again != 0, state.solver.network_cost});
     Attempt attempt = integrator_->attempt(context_, state, dt, controlled);
     report.iterations += attempt.iterations;
     report.solves += attempt.solves;
@@ -71,7 +71,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
       state.surface_velocity = (report.height - state.surface_height) / dt;
       state.surface_height = report.height;
       state.end_pressure = attempt.end_pressure;
-      state.stiff = context_.was_stiff();
+      state.solver = context_.memory();
       state.previous_velocity = std::move(state.velocity);
       state.previous_angular_velocity = std::move(state.angular_velocity);
       state.velocity = std::move(attempt.velocity);

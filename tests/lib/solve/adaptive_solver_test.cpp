@@ -110,7 +110,7 @@ TEST(AdaptiveSolver, SolvesExactlyWhereBlockJacobiIsTooSlow) {
     ASSERT_FALSE(conjugate_gradients(chain.system, x, {1e-10, 300}).converged) << "the example is too easy";
     x.clear();
     AdaptiveSolver solver;
-    solver.begin_step(false);
+    solver.begin_step({});
     const SolveReport report = solver.solve(chain.system, x, options);
     EXPECT_TRUE(report.converged);
     EXPECT_TRUE(solver.has_network());
@@ -165,7 +165,7 @@ TEST(AdaptiveSolver, TakesNoNetworkWhereBlockJacobiIsQuick) {
   make(chain, 500, true, 1, 2);
   std::vector<double> x;
   AdaptiveSolver solver;
-  solver.begin_step(false);
+  solver.begin_step({});
   EXPECT_TRUE(solver.solve(chain.system, x, options).converged);
   EXPECT_LT(error(x, chain.exact), 1e-8);
   EXPECT_FALSE(solver.has_network());
@@ -180,14 +180,14 @@ TEST(AdaptiveSolver, OneSolveGoneAstrayMakesAChainStiffAndNoJam) {
   easy.system.topology = &jam.topology;
   std::vector<double> x;
   AdaptiveSolver solver;
-  solver.begin_step(false);
+  solver.begin_step({});
   EXPECT_TRUE(solver.solve(chain.system, x, options).converged);
-  EXPECT_TRUE(solver.is_stiff());
+  EXPECT_TRUE(solver.memory().stiff);
   x.clear();
-  solver.begin_step(false);
+  solver.begin_step({});
   EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
   EXPECT_TRUE(solver.has_network()) << "the example is too easy";
-  EXPECT_FALSE(solver.is_stiff());
+  EXPECT_FALSE(solver.memory().stiff);
   EXPECT_LT(error(x, jam.exact), 1e-5);
   x.clear();
   EXPECT_TRUE(solver.solve(easy.system, x, {1e-4, 20000}).converged);
@@ -195,20 +195,44 @@ TEST(AdaptiveSolver, OneSolveGoneAstrayMakesAChainStiffAndNoJam) {
   EXPECT_LT(error(x, easy.exact), 1e-2);
   // Where block Jacobi fails again and again the network is what is left.
   Chain stiffer;
-  make_jam(stiffer, 12, 1e-4, 30);
+  make_jam(stiffer, 12, 1e-9, 1);
   stiffer.system.topology = &jam.topology;
-  solver.begin_step(false);
+  solver.begin_step({});
   x.clear();
   EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
-  EXPECT_FALSE(solver.is_stiff());
+  EXPECT_FALSE(solver.memory().stiff);
   x.clear();
   EXPECT_TRUE(solver.solve(stiffer.system, x, options).converged);
-  EXPECT_TRUE(solver.is_stiff());
+  EXPECT_TRUE(solver.memory().stiff);
   // A layer that was stiff at the last step's end begins with a network, whatever it costs.
   x.clear();
-  solver.begin_step(true);
+  solver.begin_step({true});
   EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
-  EXPECT_TRUE(solver.is_stiff());
+  EXPECT_TRUE(solver.memory().stiff);
+}
+
+// Block Jacobi goes on for as long as the last network took.
+TEST(AdaptiveSolver, IsAsPatientAsANetworkCosts) {
+  Chain jam;
+  make_jam(jam, 12, 1e-4, 1);
+  const int needed = [&] {
+    std::vector<double> x;
+    return conjugate_gradients(jam.system, x, options).iterations;
+  }();
+  ASSERT_GT(needed, 60) << "the example is too easy";
+  for (const int cost : {0, needed - 1, needed + 1}) {
+    AdaptiveSolver solver;
+    std::vector<double> x;
+    solver.begin_step({false, cost});
+    EXPECT_TRUE(solver.solve(jam.system, x, options).converged);
+    EXPECT_EQ(solver.has_network(), cost <= needed) << cost;
+    if (solver.has_network()) {
+      EXPECT_GT(solver.memory().network_cost, 0);
+      EXPECT_NE(solver.memory().network_cost, cost);
+    } else {
+      EXPECT_EQ(solver.memory().network_cost, cost);
+    }
+  }
 }
 
 // What a solver did in steps before leaves no trace, nor does the number of threads: a resumed run has neither.
@@ -226,11 +250,11 @@ TEST(AdaptiveSolver, BeginsEveryStepAnew) {
       AdaptiveSolver solver;
       std::vector<double> x;
       if (before) {
-        solver.begin_step(false);
+        solver.begin_step({});
         solver.solve(first.system, x, options);
         ASSERT_TRUE(solver.has_network());
       }
-      solver.begin_step(true);
+      solver.begin_step({true});
       x.clear();
       EXPECT_TRUE(solver.solve(second.system, x, options).converged);
       EXPECT_TRUE(solver.has_network());
@@ -255,7 +279,7 @@ TEST(AdaptiveSolver, ServesOtherHeldParticlesThanItsNetworkWasMadeWith) {
     }
   };
   AdaptiveSolver solver;
-  solver.begin_step(true);
+  solver.begin_step({true});
   std::vector<double> x;
   hold({7, 30, 400});
   ASSERT_TRUE(solver.solve(s, x, options).converged);

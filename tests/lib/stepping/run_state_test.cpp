@@ -45,7 +45,7 @@ RunState full_state() {
   s.frame_height = 24.9;
   s.surface_height = awkward(4);
   s.surface_velocity = awkward(5);
-  s.stiff = true;
+  s.solver = {true, 171};
   for (int r = 0; r < 3; ++r) {
     Redistribution part;
     for (int b = 0; b < redistribution_slices; ++b) part.residual.push_back(awkward(r + b));
@@ -71,7 +71,7 @@ bool same(const Redistribution& a, const Redistribution& b) { return same(a.resi
 // Every member: one that is added and forgotten here does not compile.
 void expect_same(const RunState& a, const RunState& b) {
   const auto& [step, frame, time, preferred_step, last_step, previous_step, position, velocity, angular_velocity, previous_velocity,
-               previous_angular_velocity, surface_height, surface_velocity, end_pressure, stiff, protrusion, list_reference, list_temperature, frame_position, frame_height,
+               previous_angular_velocity, surface_height, surface_velocity, end_pressure, solver, protrusion, list_reference, list_temperature, frame_position, frame_height,
                redistribution, mass_centre, interval] = a;
   EXPECT_TRUE(same(step, b.step) && same(frame, b.frame));
   EXPECT_TRUE(same(time, b.time) && same(preferred_step, b.preferred_step) && same(last_step, b.last_step) && same(previous_step, b.previous_step));
@@ -85,7 +85,7 @@ void expect_same(const RunState& a, const RunState& b) {
   EXPECT_TRUE(same(protrusion, b.protrusion));
   EXPECT_TRUE(same(list_reference, b.list_reference) && same(list_temperature, b.list_temperature));
   EXPECT_TRUE(same(frame_position, b.frame_position) && same(frame_height, b.frame_height));
-  EXPECT_EQ(stiff, b.stiff);
+  EXPECT_EQ(solver, b.solver);
   ASSERT_EQ(redistribution.size(), b.redistribution.size());
   for (std::size_t k = 0; k < redistribution.size(); ++k) EXPECT_TRUE(same(redistribution[k], b.redistribution[k]));
   EXPECT_TRUE(same(mass_centre, b.mass_centre));
