@@ -70,5 +70,36 @@ TEST(GapBracket, HalvesWhatLeavesIt) {
   EXPECT_NEAR(bracket.take(5, 1.2), std::sqrt(1.2 * 1.4), 1e-6);
 }
 
+// Other gaps move as well: a solution that has left an end of the bracket twice running is not held back by it.
+TEST(GapBracket, LetsGoOfAnEndThatTwoPassesWouldLeave) {
+  GapBracket stale;
+  EXPECT_EQ(stale.take(2.0, 1.0), 2.0);                    // above 1
+  EXPECT_DOUBLE_EQ(stale.take(0.5, 2.0), std::sqrt(2.0));  // below 2, and below 1, which was not so
+  EXPECT_EQ(stale.take(0.5, std::sqrt(2.0)), 0.5);         // nor is it
+  EXPECT_EQ(stale.take(0.4, 0.5), 0.4);
+  // One that leaves it on either side in turn does not count.
+  GapBracket turns;
+  turns.take(2.0, 1.0);
+  EXPECT_DOUBLE_EQ(turns.take(0.5, 2.0), std::sqrt(2.0));
+  EXPECT_EQ(turns.take(1.9, std::sqrt(2.0)), 1.9);
+  EXPECT_DOUBLE_EQ(turns.take(0.5, 1.9), std::sqrt(1.9 * static_cast<double>(std::sqrt(2.0f))));
+}
+
+// A gap that is foretold is believed where no force is felt, and to half the range or 15 % where one is.
+TEST(FirstGuess, KeepsNearWhereForcesAreFelt) {
+  const double range = 1;
+  EXPECT_EQ(first_guess(20, 15, range), 15);
+  EXPECT_EQ(first_guess(20, 30, range), 30);
+  EXPECT_EQ(first_guess(20, 2, range), 6);        // to where forces begin
+  EXPECT_EQ(first_guess(20, -5, range), 6);
+  EXPECT_DOUBLE_EQ(first_guess(5, 3, range), 4.5);
+  EXPECT_DOUBLE_EQ(first_guess(5, 9, range), 5.5);
+  EXPECT_DOUBLE_EQ(first_guess(5, 4.8, range), 4.8);
+  EXPECT_DOUBLE_EQ(first_guess(0.32, 0.06, range), 0.272);
+  EXPECT_DOUBLE_EQ(first_guess(0.32, 9, range), 0.368);
+  for (double gap = 0.01; gap < 30; gap *= 1.1)
+    for (double foretold = -1; foretold < 40; foretold += 0.7) EXPECT_GT(first_guess(gap, foretold, range), 0.19 * gap);
+}
+
 }  // namespace
 }  // namespace pigment::assembly
