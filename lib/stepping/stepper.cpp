@@ -1,5 +1,7 @@
 #include "stepping/stepper.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,19 @@ constexpr double rounding = 1e-9;
 constexpr double growth_after_failure = 1.02, remembered = 0.25;
 // Every so many steps a layer that its bonds make stiff is tried without the solver's network.
 constexpr int look_again = 16;
+
+// The particle that a step would carry furthest, where that is beyond the width of the layer: it was thrown there by a step far too long for
+// its forces. -1: none. With lubrication no step does that; without, nothing else says so of one whose gaps are all open again.
+std::int64_t thrown_particle(const Vec3Array& from, const Vec3Array& to, double width) {
+  double farthest = width * width;
+  std::int64_t thrown = -1;
+  for (std::size_t k = 0; k < from.size(); ++k)
+    if (const double moved = (to[k] - from[k]).squaredNorm(); !(moved <= farthest)) {
+      farthest = moved;
+      thrown = static_cast<std::int64_t>(k);
+    }
+  return thrown;
+}
 
 double noise_step(const Problem& p, const Liquid& liquid) {
   const double scale = gap_scale(p.interactions, liquid);
@@ -60,7 +75,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
     Attempt attempt = integrator_->attempt(context_, state, dt, controlled);
     report.iterations += attempt.iterations;
     report.solves += attempt.solves;
-    const bool good = attempt.last.good;
+    const std::int64_t thrown = attempt.last.good ? thrown_particle(state.position, attempt.position, problem.cell.width_x) : -1;
+    const bool good = attempt.last.good && thrown < 0;
     const double error = controlled ? attempt.error / problem.stepping.tolerance : 0;
     if (good && error < intolerable) {
       report.step = dt;
@@ -92,7 +108,11 @@ StepReport Stepper::advance(RunState& state, double longest) {
     const double shorter = good ? std::max(0.3, 0.9 / std::sqrt(error)) * dt : 0.5 * dt;
     // An explicit step of a length that the scene insists on is a matter for its user.
     if (shorter < shortest_step || (fixed && integrator_->is_explicit()))
-      throw NumericsError(context_.describe_failure(state, dt, attempt.last));
+      throw NumericsError(context_.describe_failure(state, dt, attempt.last) +
+                          (thrown < 0 ? ""
+                                      : fmt::format("; id {}, of radius {:.4g} um, would move by {:.3g} um, further than the layer is wide",
+                                                    problem.particles.id[thrown], problem.particles.radius[thrown],
+                                                    (attempt.position[thrown] - state.position[thrown]).norm())));
     dt = shorter;
     if (!fixed) state.preferred_step = dt;
   }

@@ -100,6 +100,33 @@ TEST(Integrators, LongStepsNeverOverlap) {
   }
 }
 
+// Without lubrication no gap has to stay open, and a step far too long for a force throws its particles away without one that is closed.
+TEST(Stepper, NamesAParticleThatAStepThrowsAway) {
+  Setting s = settling_triplet();
+  s.problem.interactions.hydrodynamics.model = resistance::HydrodynamicsParameters::Model::Drag;
+  s.problem.interactions.gravity.reset();
+  test::add_particle(s.problem, s.position, 0.3, Vec3(10, 10, 50));
+  test::add_particle(s.problem, s.position, 0.3, Vec3(10, 10, 50.6001));
+  s.problem.stepping.integrator = Integrator::ExplicitEuler;
+  s.problem.stepping.time_step = 1e3;
+  stepping::RunState state = stepping::initial_state(s.problem, s.position);
+  stepping::Stepper stepper(s.problem, state);
+  try {
+    stepper.advance(state, 1e3);
+    ADD_FAILURE() << "it went on";
+  } catch (const NumericsError& e) {
+    EXPECT_NE(std::string(e.what()).find("further than the layer is wide"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("of radius 0.3 um"), std::string::npos) << e.what();
+  }
+  EXPECT_EQ(state.position, s.position);  // as it was before the step
+  // Steps that may be shorter are.
+  s.problem.stepping.integrator = Integrator::LinearlyImplicit;
+  state = stepping::initial_state(s.problem, s.position);
+  stepping::Stepper implicit(s.problem, state);
+  implicit.advance(state, 1e3);
+  EXPECT_LT(distance(state.position, s.position), s.problem.cell.width_x);
+}
+
 // The controlled step's error, measured against a far tighter run, is of the order of what was asked for.
 TEST(Integrators, ToleranceBoundsTheError) {
   for (Integrator integrator : {Integrator::NewtonImplicit, Integrator::Extrapolated, Integrator::BackwardDifferentiation, Integrator::ConvexSplitting}) {
