@@ -23,10 +23,10 @@ constexpr double growth_after_failure = 1.02, remembered = 0.25;
 // Every so many steps a layer that its bonds make stiff is tried without the solver's network.
 constexpr int look_again = 16;
 
-// The particle that a step would carry furthest, where that is beyond the width of the layer: it was thrown there by a step far too long for
-// its forces. -1: none. With lubrication no step does that; without, nothing else says so of one whose gaps are all open again.
-std::int64_t thrown_particle(const Vec3Array& from, const Vec3Array& to, double width) {
-  double farthest = width * width;
+// The particle that a step would carry furthest, where that is beyond the layer's width and height: it was thrown there by a step far too
+// long for its forces; what settles or flows along comes to no such distance. -1: none. With lubrication no step does that; without, nothing else says so of one whose gaps are all open again.
+std::int64_t thrown_particle(const Vec3Array& from, const Vec3Array& to, double size) {
+  double farthest = size * size;
   std::int64_t thrown = -1;
   for (std::size_t k = 0; k < from.size(); ++k)
     if (const double moved = (to[k] - from[k]).squaredNorm(); !(moved <= farthest)) {
@@ -75,7 +75,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
     Attempt attempt = integrator_->attempt(context_, state, dt, controlled);
     report.iterations += attempt.iterations;
     report.solves += attempt.solves;
-    const std::int64_t thrown = attempt.last.good ? thrown_particle(state.position, attempt.position, problem.cell.width_x) : -1;
+    const std::int64_t thrown = attempt.last.good ? thrown_particle(state.position, attempt.position, std::max({problem.cell.width_x, problem.cell.width_y, problem.cell.height})) : -1;
     const bool good = attempt.last.good && thrown < 0;
     const double error = controlled ? attempt.error / problem.stepping.tolerance : 0;
     if (good && error < intolerable) {
@@ -110,7 +110,7 @@ StepReport Stepper::advance(RunState& state, double longest) {
     if (shorter < shortest_step || (fixed && integrator_->is_explicit()))
       throw NumericsError(context_.describe_failure(state, dt, attempt.last) +
                           (thrown < 0 ? ""
-                                      : fmt::format("; id {}, of radius {:.4g} um, would move by {:.3g} um, further than the layer is wide",
+                                      : fmt::format("; id {}, of radius {:.4g} um, would move by {:.3g} um, further than the layer is wide or high",
                                                     problem.particles.id[thrown], problem.particles.radius[thrown],
                                                     (attempt.position[thrown] - state.position[thrown]).norm())));
     dt = shorter;
