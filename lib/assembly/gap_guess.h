@@ -59,22 +59,18 @@ double next_gap(double gap, double guess, double tangent, const Force& force) {
 // of the bracket that two passes running would leave holds no longer.
 struct GapBracket {
   float low = 0, high = std::numeric_limits<float>::infinity();
-  int left_above = 0, left_below = 0;  // passes running that would leave it
+  bool left_above = false, left_below = false;  // by the last pass
 
   // The next guess: `next`, or half-way (in the logarithm) to the end of the bracket that it would leave.
   double take(double next, double guess) {
     (next > guess ? low : high) = static_cast<float>(guess);
     if (high < 1.02f * low) *this = {};  // the surroundings have moved
-    left_above = next >= high ? left_above + 1 : 0;
-    left_below = next <= low ? left_below + 1 : 0;
-    if (left_above > 1 || left_below > 1) {
-      (left_above > 1 ? high : low) = left_above > 1 ? std::numeric_limits<float>::infinity() : 0;
-      left_above = left_below = 0;
-      return next;
-    }
-    if (left_above > 0) return std::sqrt(guess * high);
-    if (left_below > 0) return std::sqrt(guess * low);
-    return next;
+    if (left_above && next >= high) high = std::numeric_limits<float>::infinity();
+    if (left_below && next <= low) low = 0;
+    left_above = next >= high;
+    left_below = next <= low;
+    if (left_above) return std::sqrt(guess * high);
+    return left_below ? std::sqrt(guess * low) : next;
   }
 };
 

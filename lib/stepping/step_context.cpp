@@ -232,7 +232,8 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
   // The first pass of a path average only says where half-way is. Newton's method gains nothing from a solution that is far better than
   // its linearisation: while gaps come out further off than the step may be wrong, solves are as much looser, and the last never is. Where
   // particles bond at every touch that would not do: which bond tears is decided in early passes.
-  const bool sketch = treatment == assembly::Treatment::PathAverage, inexact = treatment == assembly::Treatment::Newton && !noisy && !problem_.interactions.pressure_limited();
+  const bool sketch = treatment == assembly::Treatment::PathAverage;
+  const bool inexact = treatment == assembly::Treatment::Newton && !noisy && !problem_.interactions.pressure_limited();
   double looser = sketch ? 10 : inexact ? loosest : 1;
   StepSolution s;
   s.velocity = std::move(guess);

@@ -24,15 +24,18 @@ constexpr double growth_after_failure = 1.02, remembered = 0.25;
 constexpr int look_again = 16;
 
 // The particle that a step would carry furthest, where that is beyond the layer's width and height: it was thrown there by a step far too
-// long for its forces; what settles or flows along comes to no such distance. -1: none. With lubrication no step does that; without, nothing else says so of one whose gaps are all open again.
+// long for its forces; what settles or flows along comes to no such distance. -1: none. With lubrication no step does that; without,
+// nothing else says so of one whose gaps are all open again.
 std::int64_t thrown_particle(const Vec3Array& from, const Vec3Array& to, double size) {
   double farthest = size * size;
   std::int64_t thrown = -1;
-  for (std::size_t k = 0; k < from.size(); ++k)
-    if (const double moved = (to[k] - from[k]).squaredNorm(); !(moved <= farthest)) {
-      farthest = moved;
-      thrown = static_cast<std::int64_t>(k);
-    }
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const double moved = (to[k] - from[k]).squaredNorm();
+    if (moved <= farthest) continue;
+    thrown = static_cast<std::int64_t>(k);
+    if (!std::isfinite(moved)) break;
+    farthest = moved;
+  }
   return thrown;
 }
 
@@ -75,7 +78,8 @@ StepReport Stepper::advance(RunState& state, double longest) {
     Attempt attempt = integrator_->attempt(context_, state, dt, controlled);
     report.iterations += attempt.iterations;
     report.solves += attempt.solves;
-    const std::int64_t thrown = attempt.last.good ? thrown_particle(state.position, attempt.position, std::max({problem.cell.width_x, problem.cell.width_y, problem.cell.height})) : -1;
+    const double layer_size = std::max({problem.cell.width_x, problem.cell.width_y, problem.cell.height});
+    const std::int64_t thrown = attempt.last.good ? thrown_particle(state.position, attempt.position, layer_size) : -1;
     const bool good = attempt.last.good && thrown < 0;
     const double error = controlled ? attempt.error / problem.stepping.tolerance : 0;
     if (good && error < intolerable) {
