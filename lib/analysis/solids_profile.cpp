@@ -195,7 +195,7 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   if (frames.count > 1)
     measured = measure_intervals(kept, all, [&](const Snapshot& before, const Snapshot& after) {
       return Measured{profile_solids(after, solids, parameters, columns), non_affine_interval(before, after),
-                      redistribution_between(before.position, after.position, solids.radius, before.cell, after.cell.height)};
+                      redistribution_between(before.position, after.position, solids.radius, before.cell.height, after.cell.height)};
     });
   else
     first = frames.read(0);
@@ -216,7 +216,7 @@ SolidsDevelopment follow_solids(const Frames& frames, const Solids& solids, cons
   for (std::size_t k = 0; k < measured.size(); ++k) {
     NonAffineInterval& interval = result.intervals[k];
     const bool shrunk = add_to_window(window, measured[k].redistribution, parameters.immobilisation_shrinkage);
-    interval.redistribution = redistribution_ratio(window);
+    interval.redistribution = redistribution_ratio(window, parameters.immobilisation_shrinkage);
     if (!result.immobilisation_time && shrunk && interval.redistribution < parameters.immobilisation_ratio)
       result.immobilisation_time = interval.time;
   }

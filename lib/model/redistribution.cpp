@@ -2,64 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pigment {
 
-Redistribution redistribution_between(const Vec3Array& before, const Vec3Array& after, const std::vector<double>& radius,
-                                      const Cell& cell, double height_after) {
-  constexpr int slices = redistribution_slices, quarters = redistribution_quarters;
-  Redistribution r{std::vector<double>(slices, 0.0), std::vector<double>(slices * quarters, 0.0), cell.height - height_after, cell.height};
-  std::vector<double> volume(slices * quarters, 0.0);
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    const Vec3 p = cell.wrap(before[k]);
-    const double share = std::pow(radius[k], 3);
-    const int slice = std::clamp(static_cast<int>(std::floor(p.z() / cell.height * slices)), 0, slices - 1);
-    const int quarter = (2 * p.x() < cell.width_x ? 0 : 1) + (2 * p.y() < cell.width_y ? 0 : 2);
-    volume[slice * quarters + quarter] += share;
-    r.scatter[slice * quarters + quarter] += share * (after[k].z() - p.z() + p.z() * r.fall / cell.height);
+namespace {
+
+// The first of the intervals, two at least, up to and with `last` in which the layer shrinks by a share of its height; 0 where all are too few.
+std::size_t window_start(const std::deque<Redistribution>& intervals, std::size_t last, double shrinkage) {
+  double fall = intervals[last].fall;
+  for (std::size_t k = last; k-- > 0;) {
+    fall += intervals[k].fall;
+    if (fall >= shrinkage * intervals[k].height) return k;
   }
-  for (int b = 0; b < slices; ++b) {
-    double moved = 0, whole = 0, squares = 0;
-    for (int q = b * quarters; q < (b + 1) * quarters; ++q) {
-      moved += r.scatter[q];
-      whole += volume[q];
-      squares += volume[q] * volume[q];
-    }
-    if (whole > 0) r.residual[b] = moved / whole;
-    // Where a quarter with a share w of the slice's volume has a mean of variance s2/w, the slice's has s2, and the quarter's part in it,
-    // w (its mean - the slice's), has the mean square s2 w (1 - w).
-    const double freedom = whole * whole - squares;
-    for (int q = b * quarters; q < (b + 1) * quarters; ++q)
-      r.scatter[q] = freedom > 0 ? (r.scatter[q] - volume[q] * r.residual[b]) / std::sqrt(freedom) : 0;
-  }
-  return r;
+  return 0;
 }
 
-double redistribution_ratio(const std::deque<Redistribution>& intervals) {
-  constexpr int slices = redistribution_slices, quarters = redistribution_quarters;
-  std::vector<double> sum(slices, 0.0), scatter(slices * quarters, 0.0);
+// Mean over the slices of the product of what two halves of a window, [first, last], moved for each um of fall. None where a half is missing.
+std::optional<double> product_of_halves(const std::deque<Redistribution>& intervals, std::size_t first, std::size_t last) {
   double fall = 0;
-  for (const Redistribution& r : intervals) {
-    fall += r.fall;
-    for (int b = 0; b < slices; ++b) sum[b] += r.residual[b];
-    for (int q = 0; q < slices * quarters; ++q) scatter[q] += r.scatter[q];
+  for (std::size_t k = first; k <= last; ++k) fall += intervals[k].fall;
+  double fallen = 0;
+  std::size_t middle = first;  // of the second half, as near to half of the fall as intervals allow
+  while (middle < last && (middle == first || std::abs(fallen + intervals[middle].fall - fall / 2) < std::abs(fallen - fall / 2)))
+    fallen += intervals[middle++].fall;
+  if (!(fallen > 0) || !(fall - fallen > 0)) return {};
+  double product = 0;
+  for (int b = 0; b < redistribution_slices; ++b) {
+    double early = 0, late = 0;
+    for (std::size_t k = first; k <= last; ++k) (k < middle ? early : late) += intervals[k].residual[b];
+    product += early * late;
   }
-  if (!(fall > 0)) return 1;
-  double square = 0;
-  for (double s : sum) square += s * s;
-  for (double s : scatter) square -= s * s;
-  return std::sqrt(std::max(square, 0.0) / slices) / fall;
+  return product / (redistribution_slices * fallen * (fall - fallen));
+}
+
+}  // namespace
+
+Redistribution redistribution_between(const Vec3Array& before, const Vec3Array& after, const std::vector<double>& radius,
+                                      double height_before, double height_after) {
+  constexpr int n = redistribution_slices;
+  Redistribution r{std::vector<double>(n, 0.0), height_before - height_after, height_before};
+  std::vector<double> volume(n, 0.0);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const double z = before[k].z(), share = std::pow(radius[k], 3);
+    const int b = std::clamp(static_cast<int>(std::floor(z / height_before * n)), 0, n - 1);
+    volume[b] += share;
+    r.residual[b] += share * (after[k].z() - z + z * r.fall / height_before);
+  }
+  for (int b = 0; b < n; ++b) r.residual[b] = volume[b] > 0 ? r.residual[b] / volume[b] : 0;
+  return r;
 }
 
 bool add_to_window(std::deque<Redistribution>& window, Redistribution interval, double shrinkage) {
   window.push_back(std::move(interval));
   double fall = 0;
   for (const Redistribution& r : window) fall += r.fall;
-  while (window.size() > 1 && fall - window.front().fall >= shrinkage * window[1].height) {
+  while (window.size() > 2 && fall - window.front().fall >= 1.5 * shrinkage * window[1].height) {
     fall -= window.front().fall;
     window.pop_front();
   }
-  return fall >= shrinkage * window.front().height;
+  return window.size() > 1 && fall >= 1.5 * shrinkage * window.front().height;
+}
+
+double redistribution_ratio(const std::deque<Redistribution>& intervals, double shrinkage) {
+  double sum = 0, fall = 0;
+  for (std::size_t last = intervals.size(); last-- > 1;) {
+    if (fall > 0 && fall >= shrinkage / 2 * intervals[last].height) break;
+    const std::optional<double> product = product_of_halves(intervals, window_start(intervals, last, shrinkage), last);
+    if (!product) break;
+    fall += intervals[last].fall;
+    sum += *product * intervals[last].fall;
+  }
+  return fall > 0 ? std::sqrt(std::max(sum / fall, 0.0)) : 1;
 }
 
 }  // namespace pigment

@@ -89,7 +89,7 @@ std::vector<double> observe(const Problem& problem, const RunState& state, doubl
           stepped ? sum[Iterations] / sum[Steps] : 0.0,
           sum[Contacts],
           surface ? non_affine_rate(state, height) : 0.0,
-          surface && state.frame > 0 ? redistribution_ratio(state.redistribution) : 1.0};
+          surface && state.frame > 0 ? redistribution_ratio(state.redistribution, problem.stepping.immobile_shrinkage) : 1.0};
   if (problem.interactions.hindered()) observables.push_back(stepped ? sum[LiquidImpulse] / sum[Duration] : 0.0);
   if (problem.interactions.height_field) observables.push_back(smallest_gap_to_substrate(problem, state));
   return observables;
@@ -133,8 +133,7 @@ std::string consolidate(const Problem& problem, const RunSettings& settings, Run
   const auto store_frame = [&] {
     const double drained = stepper.height_at(state.time), height = lags ? state.surface_height : drained;
     if (state.frame > 0) {
-      Redistribution last = redistribution_between(state.frame_position, state.position, problem.particles.radius,
-                                                   {problem.cell.width_x, problem.cell.width_y, state.frame_height}, height);
+      Redistribution last = redistribution_between(state.frame_position, state.position, problem.particles.radius, state.frame_height, height);
       // A surface that lags is held against what the dewatering takes.
       if (lags) last.fall = stepper.height_at(static_cast<double>(state.frame - 1) * settings.output_every) - drained;
       shrunk = add_to_window(state.redistribution, std::move(last), problem.stepping.immobile_shrinkage);

@@ -23,7 +23,6 @@ std::map<std::string, std::vector<double>> RunState::arrays() const {
   for (const Redistribution& r : redistribution) {
     redistributions.insert(redistributions.end(), {r.fall, r.height});
     redistributions.insert(redistributions.end(), r.residual.begin(), r.residual.end());
-    redistributions.insert(redistributions.end(), r.scatter.begin(), r.scatter.end());
   }
   return {{"scalars", {time, preferred_step, last_step, frame_height, list_temperature, surface_height, surface_velocity, previous_step,
                        end_pressure[0], end_pressure[1], end_pressure[2]}},
@@ -67,10 +66,10 @@ RunState RunState::from(const std::map<std::string, std::vector<double>>& a,
   s.list_reference = vectors(a.at("list_reference"));
   s.frame_position = vectors(a.at("frame_position"));
   const std::vector<double>& redistributions = a.at("redistribution");
-  constexpr std::size_t slices = redistribution_slices, length = 2 + slices + slices * redistribution_quarters;
+  constexpr std::size_t slices = redistribution_slices, length = 2 + slices;
   for (std::size_t k = 0; k + length <= redistributions.size(); k += length) {
-    const auto first = redistributions.begin() + static_cast<std::ptrdiff_t>(k), residual = first + 2, scatter = residual + slices;
-    s.redistribution.push_back({{residual, scatter}, {scatter, first + length}, first[0], first[1]});
+    const auto first = redistributions.begin() + static_cast<std::ptrdiff_t>(k);
+    s.redistribution.push_back({{first + 2, first + length}, first[0], first[1]});
   }
   const std::vector<double>& centres = a.at("mass_centre");
   s.mass_centre.assign(centres.begin(), centres.end());

@@ -49,7 +49,6 @@ RunState full_state() {
   for (int r = 0; r < 3; ++r) {
     Redistribution part;
     for (int b = 0; b < redistribution_slices; ++b) part.residual.push_back(awkward(r + b));
-    for (int q = 0; q < redistribution_slices * redistribution_quarters; ++q) part.scatter.push_back(awkward(r + 2 * q));
     part.fall = awkward(r + 3);
     part.height = awkward(r + 4);
     s.redistribution.push_back(part);
@@ -66,7 +65,7 @@ template <typename Container>
 bool same(const Container& a, const Container& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return same(x, y); });
 }
-bool same(const Redistribution& a, const Redistribution& b) { return same(a.residual, b.residual) && same(a.scatter, b.scatter) && same(a.fall, b.fall) && same(a.height, b.height); }
+bool same(const Redistribution& a, const Redistribution& b) { return same(a.residual, b.residual) && same(a.fall, b.fall) && same(a.height, b.height); }
 
 // Every member: one that is added and forgotten here does not compile.
 void expect_same(const RunState& a, const RunState& b) {
