@@ -13,11 +13,9 @@ constexpr int least_patience = 60, particles_per_iteration = 80;
 constexpr int most_changed = 10, stale = 25;
 constexpr double times_changed = 3;
 // A pair's part in an iteration of block Jacobi takes the time of so many of the factor's multiply-adds, its order and the solves with it
-// included: in a jam of 7,070 particles with 90,000 pairs 0.4 ms beside 55 to 75 ms for 1.5e9 of them, in an uncharged layer of 4,700 with
-// 42,500 pairs 0.2 ms beside 4.5 to 7 ms for 1e8 (two threads).
-constexpr double work_of_pair = 100;
-// A layer is stiff where block Jacobi took so many times what a network costs.
-constexpr double much_dearer = 1.5;
+// included: in a jam of 7,070 particles with 91,000 pairs 0.4 ms beside 45 ms for 1.7e9 of them, in an uncharged layer of 4,700 with
+// 42,500 pairs 0.24 ms beside 15 ms for 4.2e8 (two threads).
+constexpr double work_of_pair = 160;
 // The network's norm is nearly that of the error's energy, which block Jacobi's does not see: at the same tolerance an uncharged layer's
 // solves left 0.1 % of the energy norm with the one and 3 % with the other.
 constexpr double network_tolerance = 10;
@@ -48,7 +46,7 @@ SolveReport AdaptiveSolver::solve(const PairSystem& system, std::vector<double>&
   make(system);
   if (!had_network && network_.ready())
     stiff_ = (jacobi_failures_ > 1 && 2 * jacobi_failures_ > jacobi_solves_) ||
-             jacobi_iterations_ > much_dearer * network_cost_ * jacobi_solves_;
+             jacobi_iterations_ > network_cost_ * jacobi_solves_;
   report = network_.ready() ? conjugate_gradients(system, x, with_network, &network_) : conjugate_gradients(system, x, options);
   report.iterations += before;
   return report;

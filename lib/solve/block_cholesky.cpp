@@ -15,6 +15,8 @@ constexpr int B = front_block;
 constexpr double part_share = 1.0 / 24;
 // The work of a supernode beside its arithmetic, in the same unit.
 constexpr double overhead = 100;
+// Rows of a front of the top that a thread takes at once in a solve.
+constexpr int rows_at_once = 16 * lanes;
 
 }  // namespace
 
@@ -27,13 +29,17 @@ bool BlockCholesky::analyze(int nodes, const std::vector<std::pair<std::int32_t,
   std::size_t values = 0;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const Supernode& s = tree_.supernodes[k];
-    const Front f = front(static_cast<std::int32_t>(k), nullptr);
+    const Front f = front(static_cast<std::int32_t>(k));
+    const std::size_t size = static_cast<std::size_t>(f.own) * f.rows();
     places_[k].values = values;
-    values += static_cast<std::size_t>(f.own) * f.rows();
+    values += size;
+    largest_values_ = std::max(largest_values_, size);
+    most_rows_ = std::max(most_rows_, static_cast<std::size_t>(f.rows()));
     largest_update_ = std::max(largest_update_, static_cast<std::size_t>(f.below) * f.below_rows());
     std::fill(supernode_of.begin() + s.first, supernode_of.begin() + s.end, static_cast<std::int32_t>(k));
   }
-  values_ = std::make_unique_for_overwrite<double[]>(values);
+  kept_ = std::make_unique_for_overwrite<float[]>(values);
+  top_rows_.resize(most_rows_);
   find_children();
   place_blocks(pairs, supernode_of);
   divide();
@@ -64,6 +70,14 @@ void BlockCholesky::find_children() {
         row_in_parent_[q] = own_rows + B * (at - p.rows_begin);
       }
     }
+    places_[k].runs_begin = static_cast<std::int32_t>(runs_.size());
+    for (std::int32_t q = s.rows_begin; q < s.rows_end; ++q) {
+      if (q > s.rows_begin && row_in_parent_[q] == row_in_parent_[q - 1] + B)
+        runs_.back().length += B;
+      else
+        runs_.push_back({B * (q - s.rows_begin), row_in_parent_[q], B});
+    }
+    places_[k].runs_end = static_cast<std::int32_t>(runs_.size());
   }
 }
 
@@ -78,14 +92,14 @@ void BlockCholesky::place_blocks(const std::vector<std::pair<std::int32_t, std::
     const auto [low, high] = ends(q);
     const std::int32_t k = supernode_of[low];
     const Supernode& s = tree_.supernodes[k];
-    const Front f = front(k, nullptr);
+    const Front f = front(k);
     std::size_t row = static_cast<std::size_t>(B) * (high - s.first);
     if (high >= s.end) {
       const auto begin = tree_.row.begin() + s.rows_begin, end = tree_.row.begin() + s.rows_end;
       row = f.own_rows() + static_cast<std::size_t>(B) * (std::lower_bound(begin, end, high) - begin);
     }
     const std::size_t column = static_cast<std::size_t>(B) * (low - s.first);
-    blocks_[places_[k].blocks_end++] = {static_cast<std::int32_t>(q), tree_.place[pairs[q].first] == high, places_[k].values + column * f.rows() + row};
+    blocks_[places_[k].blocks_end++] = {static_cast<std::int32_t>(q), tree_.place[pairs[q].first] == high, column * f.rows() + row};
   }
 }
 
@@ -95,7 +109,7 @@ void BlockCholesky::divide() {
   std::vector<double> work(count);  // of the subtree
   std::vector<std::size_t> size(count);
   for (std::int32_t k = 0; k < count; ++k) {
-    const Front f = front(k, nullptr);
+    const Front f = front(k);
     const double rows = f.rows(), own = overhead + f.own * rows * rows;
     size[k] = static_cast<std::size_t>(f.below) * f.below_rows();
     work[k] += own;
@@ -150,65 +164,69 @@ void BlockCholesky::divide() {
   to_top_.resize(parts_.size() * top_unknowns_);
 }
 
-Front BlockCholesky::front(std::int32_t k, double* update) const {
+Front BlockCholesky::front(std::int32_t k, double* values, double* update) const {
   const Supernode& s = tree_.supernodes[k];
-  return {values_.get() + places_[k].values, update, B * (s.end - s.first), B * (s.rows_end - s.rows_begin)};
+  return {values, update, B * (s.end - s.first), B * (s.rows_end - s.rows_begin)};
+}
+KeptColumns BlockCholesky::kept(std::int32_t k) const {
+  const Front f = front(k);
+  return {kept_.get() + places_[k].values, f.own, f.below};
 }
 
 double* BlockCholesky::update_of(std::int32_t k) const { return updates_[places_[k].part < 0 ? parts_.size() : places_[k].part].get() + places_[k].update; }
 
-void BlockCholesky::gather(std::int32_t k, const Front& f, const std::vector<double>& diagonal, const std::vector<double>& between) const {
+// Columns of the front, the own ones and then those below; these only where children add to them.
+void BlockCholesky::clear(std::int32_t k, const Front& f, int begin, int end) const {
+  const std::size_t rows = f.rows(), below_rows = f.below_rows();
+  for (int j = begin; j < std::min(end, f.own); ++j) std::fill_n(f.values + j * rows, rows, 0.0);
+  for (int j = std::max(begin, f.own) - f.own; j < end - f.own && has_children(k); ++j)
+    std::fill(f.update + j * below_rows + Front::first_row(j), f.update + (j + 1) * below_rows, 0.0);
+}
+
+void BlockCholesky::add_numbers(std::int32_t k, const Front& f, const std::vector<double>& diagonal, const std::vector<double>& between) const {
   const Supernode& s = tree_.supernodes[k];
   const auto rows = static_cast<std::size_t>(f.rows());
-  const int own_rows = f.own_rows(), below_rows = f.below_rows();
-  std::fill(f.values, f.values + f.own * rows, 0.0);
   for (std::int32_t node = s.first; node < s.end; ++node)
     for (int c = 0; c < B; ++c) std::copy_n(&diagonal[9 * static_cast<std::size_t>(node) + B * c], B, f.values + B * (node - s.first) * (rows + 1) + c * rows);
   for (std::int32_t b = places_[k].blocks_begin; b < places_[k].blocks_end; ++b) {
     const double* from = &between[9 * static_cast<std::size_t>(blocks_[b].pair)];
-    double* to = values_.get() + blocks_[b].values;
+    double* to = f.values + blocks_[b].values;
     for (int c = 0; c < B; ++c)
       for (int r = 0; r < B; ++r) to[c * rows + r] = from[blocks_[b].turned ? B * c + r : B * r + c];
   }
-  if (!has_children(k)) return;
-  for (int j = 0; j < f.below; ++j) {
-    double* column = f.update + static_cast<std::size_t>(j) * below_rows;
-    std::fill(column + Front::first_row(j), column + below_rows, 0.0);
-  }
-  // Rows that follow one another in the child mostly do in the parent too.
-  struct Run {
-    int from, to, length;
-  };
-  std::vector<Run> runs;
-  for (std::int32_t c = places_[k].children_begin; c < places_[k].children_end; ++c) {
-    const Front child = front(children_[c], update_of(children_[c]));
-    runs.clear();
-    for (int from = 0; from < child.below; from += B) {
-      const int to = row_in_parent_[tree_.supernodes[children_[c]].rows_begin + from / B];
-      if (!runs.empty() && to == runs.back().to + runs.back().length)
-        runs.back().length += B;
-      else
-        runs.push_back({from, to, B});
+}
+
+void BlockCholesky::add_update(const Front& f, std::int32_t child, int from) const {
+  const Front c = front(child);
+  const auto rows = static_cast<std::size_t>(f.rows());
+  const int own_rows = f.own_rows(), below_rows = f.below_rows(), column = row_in_parent_[tree_.supernodes[child].rows_begin + from / B];
+  for (int a = 0; a < B; ++a) {
+    // So that rows of the front index it, also where the own ones are not there.
+    double* to = column < own_rows ? f.values + (column + a) * rows : f.update + static_cast<std::ptrdiff_t>(column + a - own_rows) * below_rows - own_rows;
+    const double* of = update_of(child) + static_cast<std::size_t>(from + a) * c.below_rows();
+    for (std::int32_t q = places_[child].runs_begin; q < places_[child].runs_end; ++q) {
+      const Run& run = runs_[q];
+      const int first = std::max(run.from, from), length = run.from + run.length - first;
+      if (length > 0) add_rows(to + run.to + (first - run.from), of + first, length);
     }
-    for (std::size_t first = 0; first < runs.size(); ++first)
-      for (int a = 0; a < runs[first].length; ++a) {
-        const int column = runs[first].to + a, above = a / B * B;
-        // So that rows of the front index it, also where the own ones are not there.
-        double* to = column < own_rows ? f.values + column * rows : f.update + static_cast<std::ptrdiff_t>(column - own_rows) * below_rows - own_rows;
-        const double* from = child.update + static_cast<std::size_t>(runs[first].from + a) * child.below_rows();
-        add_rows(to + runs[first].to + above, from + runs[first].from + above, runs[first].length - above);
-        for (std::size_t r = first + 1; r < runs.size(); ++r) add_rows(to + runs[r].to, from + runs[r].from, runs[r].length);
-      }
   }
 }
 
-bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* work) const {
+void BlockCholesky::gather(std::int32_t k, const Front& f, const std::vector<double>& diagonal, const std::vector<double>& between) const {
+  clear(k, f, 0, f.own + f.below);
+  add_numbers(k, f, diagonal, between);
+  for (std::int32_t c = places_[k].children_begin; c < places_[k].children_end; ++c)
+    for (int from = 0; from < front(children_[c]).below; from += B) add_update(f, children_[c], from);
+}
+
+bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* values, double* work) const {
   for (std::int32_t k = parts_[part].begin; k < parts_[part].end; ++k) {
     if (places_[k].part != part) continue;
     // Its update goes where the children's are, once they have been read.
-    const Front f = front(k, work);
+    const Front f = front(k, values, work);
     gather(k, f, diagonal, between);
     if (!factor_front(f, has_children(k))) return false;
+    keep_columns(f, 0, f.own, kept_.get() + places_[k].values);
     double* update = update_of(k);
     for (int j = 0; j < f.below; ++j) {
       const std::size_t column = static_cast<std::size_t>(j) * f.below_rows();
@@ -218,63 +236,129 @@ bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& di
   return true;
 }
 
+// By all threads; `good` is shared.
+void BlockCholesky::factor_top(const std::vector<double>& diagonal, const std::vector<double>& between, double* values, bool& good) const {
+  for (std::size_t t = 0; t < top_.size() && good; ++t) {
+    const std::int32_t k = top_[t];
+    const Front f = front(k, values, update_of(k));
+#pragma omp for schedule(static)
+    for (int column = 0; column < f.own + f.below; column += B) clear(k, f, column, column + B);
+#pragma omp single
+    add_numbers(k, f, diagonal, between);
+    for (std::int32_t c = places_[k].children_begin; c < places_[k].children_end; ++c) {
+      const int columns = front(children_[c]).below;
+#pragma omp for schedule(dynamic, 8)
+      for (int from = 0; from < columns; from += B) add_update(f, children_[c], from);
+    }
+    for (int begin = 0; begin < f.own && good; begin += front_panel) {
+      const int end = std::min(begin + front_panel, f.own);
+#pragma omp barrier
+#pragma omp single
+      good = factor_panel(f, begin, end);
+      if (!good) break;
+#pragma omp for schedule(dynamic, 4) nowait
+      for (int column = end; column < f.own; column += B) subtract_from_own(f, begin, end, column);
+#pragma omp for schedule(dynamic, 4)
+      for (int column = 0; column < f.below; column += B) subtract_from_below(f, begin, end, column, has_children(k));
+    }
+#pragma omp for schedule(static)
+    for (int column = 0; column < f.own; column += B) keep_columns(f, column, column + B, kept_.get() + places_[k].values);
+  }
+}
+
 bool BlockCholesky::factorize(const std::vector<double>& diagonal, const std::vector<double>& between) {
   bool good = true;
   // Here, since nothing may be thrown out of a parallel region.
-  const auto all_work = std::make_unique_for_overwrite<double[]>(largest_update_ * static_cast<std::size_t>(omp_get_max_threads()));
+  const std::size_t room = largest_values_ + largest_update_;
+  const auto all_work = std::make_unique_for_overwrite<double[]>(room * static_cast<std::size_t>(omp_get_max_threads()));
 #pragma omp parallel
   {
-    double* work = all_work.get() + largest_update_ * static_cast<std::size_t>(omp_get_thread_num());
+    double* values = all_work.get() + room * static_cast<std::size_t>(omp_get_thread_num());
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t q = 0; q < parts_.size(); ++q)
-      if (!factor_part(parts_by_work_[q], diagonal, between, work)) {
+      if (!factor_part(parts_by_work_[q], diagonal, between, values, values + largest_values_)) {
 #pragma omp atomic write
         good = false;
       }
-    for (std::size_t t = 0; t < top_.size() && good; ++t) {
-      const std::int32_t k = top_[t];
-      const Front f = front(k, update_of(k));
-#pragma omp single
-      gather(k, f, diagonal, between);
-      for (int begin = 0; begin < f.own && good; begin += front_panel) {
-        const int end = std::min(begin + front_panel, f.own);
-#pragma omp barrier
-#pragma omp single
-        good = factor_panel(f, begin, end);
-        if (!good) break;
-#pragma omp for schedule(dynamic, 4) nowait
-        for (int column = end; column < f.own; column += B) subtract_from_own(f, begin, end, column);
-#pragma omp for schedule(dynamic, 4)
-        for (int column = 0; column < f.below; column += B) subtract_from_below(f, begin, end, column, has_children(k));
-      }
-    }
+    factor_top(diagonal, between, all_work.get(), good);
   }
   return good;
 }
 
 // Subtracts what the rows below lose: within the part from x, of the top from to_top, which is added to x when all parts are through.
-void BlockCholesky::forward(std::int32_t k, double* x, double* to_top, double* work) const {
-  const Front f = front(k, nullptr);
-  solve_forward(f, x + B * static_cast<std::size_t>(tree_.supernodes[k].first), work);
+void BlockCholesky::scatter(std::int32_t k, const double* w, double* x, double* to_top) const {
+  const Front f = front(k);
   const std::int32_t* target = target_.data() + tree_.supernodes[k].rows_begin;
-  for (int row = 0; row < f.below; row += B, ++target) {
+  for (int row = f.own_rows(); row < f.own_rows() + f.below; row += B, ++target) {
     double* to = *target >= 0 ? x + *target : to_top - (*target + 1);
-    for (int d = 0; d < B; ++d) to[d] -= work[row + d];
+    for (int d = 0; d < B; ++d) to[d] -= w[row + d];
   }
 }
 
-void BlockCholesky::backward(std::int32_t k, double* x, double* work) const {
-  const Front f = front(k, nullptr);
+void BlockCholesky::collect(std::int32_t k, const double* x, double* w) const {
+  const Front f = front(k);
   const std::int32_t* node = tree_.row.data() + tree_.supernodes[k].rows_begin;
-  for (int row = 0; row < f.below; row += B, ++node) std::copy_n(x + B * static_cast<std::size_t>(*node), B, work + row);
-  std::fill(work + f.below, work + f.below_rows(), 0.0);
-  solve_backward(f, x + B * static_cast<std::size_t>(tree_.supernodes[k].first), work);
+  std::fill(w + f.own, w + f.own_rows(), 0.0);
+  for (int row = f.own_rows(); row < f.own_rows() + f.below; row += B, ++node) std::copy_n(x + B * static_cast<std::size_t>(*node), B, w + row);
+  std::fill(w + f.own_rows() + f.below, w + f.rows(), 0.0);
+}
+
+void BlockCholesky::forward(std::int32_t k, double* x, double* to_top, double* w) const {
+  const KeptColumns columns = kept(k);
+  double* own = x + B * static_cast<std::size_t>(tree_.supernodes[k].first);
+  std::fill_n(w, columns.rows(), 0.0);
+  forward_panel(columns, 0, columns.own, own, w);
+  forward_rows(columns, 0, columns.own, own, columns.own_rows(), columns.rows(), w);
+  scatter(k, w, x, to_top);
+}
+
+void BlockCholesky::backward(std::int32_t k, double* x, double* w) const {
+  const KeptColumns columns = kept(k);
+  double* own = x + B * static_cast<std::size_t>(tree_.supernodes[k].first);
+  collect(k, x, w);
+  for (int column = 0; column < columns.own; column += B) backward_columns(columns, column, columns.own, own, w);
+  backward_panel(columns, 0, columns.own, own, w);
+}
+
+// The fronts of the top, one after the other, panel by panel: rows, and columns, by all threads.
+void BlockCholesky::forward_top(double* x) {
+  double* w = top_rows_.data();
+  for (const std::int32_t k : top_) {
+    const KeptColumns columns = kept(k);
+    double* own = x + B * static_cast<std::size_t>(tree_.supernodes[k].first);
+    for (int begin = 0; begin < columns.own; begin += front_panel) {
+      const int end = std::min(begin + front_panel, columns.own), rest = whole_lanes(end), rows = columns.rows();
+#pragma omp single
+      {
+        if (begin == 0) std::fill_n(w, rows, 0.0);
+        forward_panel(columns, begin, end, own, w);
+      }
+#pragma omp for schedule(static)
+      for (int row = rest; row < rows; row += rows_at_once) forward_rows(columns, begin, end, own, row, std::min(row + rows_at_once, rows), w);
+    }
+#pragma omp single
+    scatter(k, w, x, nullptr);
+  }
+}
+void BlockCholesky::backward_top(double* x) {
+  double* w = top_rows_.data();
+  for (auto at = top_.rbegin(); at != top_.rend(); ++at) {
+    const KeptColumns columns = kept(*at);
+    double* own = x + B * static_cast<std::size_t>(tree_.supernodes[*at].first);
+#pragma omp single
+    collect(*at, x, w);
+    for (int begin = (columns.own - 1) / front_panel * front_panel; begin >= 0; begin -= front_panel) {
+      const int end = std::min(begin + front_panel, columns.own);
+#pragma omp for schedule(static)
+      for (int column = begin; column < end; column += B) backward_columns(columns, column, end, own, w);
+#pragma omp single
+      backward_panel(columns, begin, end, own, w);
+    }
+  }
 }
 
 void BlockCholesky::solve(double* x) {
-  std::size_t most_rows = 0;
-  for (const Supernode& s : tree_.supernodes) most_rows = std::max(most_rows, static_cast<std::size_t>(whole_lanes(B * (s.rows_end - s.rows_begin))));
-  std::vector<double> work(most_rows);
+  std::vector<double> work(most_rows_);
 #pragma omp for schedule(dynamic, 1)
   for (std::size_t q = 0; q < parts_.size(); ++q) {
     const std::int32_t p = parts_by_work_[q];
@@ -291,9 +375,9 @@ void BlockCholesky::solve(double* x) {
       for (std::size_t own = B * static_cast<std::size_t>(s.first); own < B * static_cast<std::size_t>(s.end); ++own, ++at)
         for (std::size_t p = 0; p < parts_.size(); ++p) x[own] += to_top_[p * top_unknowns_ + at];
     }
-    for (const std::int32_t k : top_) forward(k, x, nullptr, work.data());
-    for (auto k = top_.rbegin(); k != top_.rend(); ++k) backward(*k, x, work.data());
   }
+  forward_top(x);
+  backward_top(x);
 #pragma omp for schedule(dynamic, 1)
   for (std::size_t q = 0; q < parts_.size(); ++q) {
     const std::int32_t p = parts_by_work_[q];

@@ -25,23 +25,29 @@ class BlockCholesky {
   // diagonal: 9 numbers for each place; between: 9 for each of the pairs, row by row, rows of its second node, columns of its first.
   // False where a pivot is not positive.
   bool factorize(const std::vector<double>& diagonal, const std::vector<double>& between);
-  // x = A^-1 x, 3 numbers for each place. By all threads of the parallel region that it is called in; outside of one, by one thread.
+  // x = A^-1 x, but for L's rounding to single precision, 3 numbers for each place. By all threads of the parallel region that it is
+  // called in; outside of one, by one thread.
   void solve(double* x);
 
  private:
   // Of a supernode.
   struct Place {
     std::int32_t part;                          // that it is in, -1: the top
-    std::size_t values;                         // where its columns begin in values_
+    std::size_t values;                         // where its columns begin in kept_
     std::size_t update;                         // where its update begins, in the memory of its part
     std::int32_t children_begin, children_end;  // of children_
     std::int32_t blocks_begin, blocks_end;      // of blocks_
+    std::int32_t runs_begin, runs_end;          // of runs_
   };
   // A block of the matrix, and where it goes.
   struct Block {
     std::int32_t pair;
     bool turned;  // the pair's first node is the later one
-    std::size_t values;
+    std::size_t values;  // in its front
+  };
+  // Rows below that follow one another in the parent's front too.
+  struct Run {
+    std::int32_t from, to, length;
   };
   struct Part {
     std::int32_t begin, end;  // supernodes; those of the top among them are not the part's
@@ -52,13 +58,24 @@ class BlockCholesky {
   void find_children();
   void place_blocks(const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs, const std::vector<std::int32_t>& supernode_of);
   void divide();
-  Front front(std::int32_t supernode, double* update) const;
+  // A front with its own columns in `values`; only its size counts where there are none.
+  Front front(std::int32_t supernode, double* values = nullptr, double* update = nullptr) const;
+  KeptColumns kept(std::int32_t supernode) const;
   double* update_of(std::int32_t supernode) const;
-  // What the front is before its elimination: the matrix's own numbers and the children's updates.
+  // What the front is before its elimination: nothing, the matrix's own numbers, and of a child's update the three columns from `from` on.
+  void clear(std::int32_t supernode, const Front&, int begin, int end) const;
+  void add_numbers(std::int32_t supernode, const Front&, const std::vector<double>& diagonal, const std::vector<double>& between) const;
+  void add_update(const Front&, std::int32_t child, int from) const;
   void gather(std::int32_t supernode, const Front&, const std::vector<double>& diagonal, const std::vector<double>& between) const;
-  bool factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* work) const;
-  void forward(std::int32_t supernode, double* x, double* to_top, double* work) const;
-  void backward(std::int32_t supernode, double* x, double* work) const;
+  bool factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* values, double* update) const;
+  void factor_top(const std::vector<double>& diagonal, const std::vector<double>& between, double* values, bool& good) const;
+  // What the rows below lost (w), and their unknowns.
+  void scatter(std::int32_t supernode, const double* w, double* x, double* to_top) const;
+  void collect(std::int32_t supernode, const double* x, double* w) const;
+  void forward(std::int32_t supernode, double* x, double* to_top, double* w) const;
+  void backward(std::int32_t supernode, double* x, double* w) const;
+  void forward_top(double* x);
+  void backward_top(double* x);
   bool has_children(std::int32_t supernode) const { return places_[supernode].children_begin < places_[supernode].children_end; }
 
   EliminationTree tree_;
@@ -68,12 +85,14 @@ class BlockCholesky {
   std::vector<std::int32_t> row_in_parent_, target_;
   std::vector<std::int32_t> children_;
   std::vector<Block> blocks_;
+  std::vector<Run> runs_;
   std::vector<Part> parts_;
   std::vector<std::int32_t> parts_by_work_, top_;
-  std::size_t top_unknowns_ = 0, top_memory_ = 0, largest_update_ = 0;
-  std::unique_ptr<double[]> values_;
+  std::size_t top_unknowns_ = 0, top_memory_ = 0, largest_values_ = 0, largest_update_ = 0, most_rows_ = 0;
+  std::unique_ptr<float[]> kept_;
   std::vector<std::unique_ptr<double[]>> updates_;  // of each part, then of the top
   std::vector<double> to_top_;                      // of each part: what the top's unknowns get from it
+  std::vector<double> top_rows_;                    // of the front of the top that is at hand
 };
 
 }  // namespace pigment::solve

@@ -109,37 +109,66 @@ PIGMENT_INLINE bool factor_front(const Front& f, bool add) {
   return true;
 }
 
-PIGMENT_INLINE void solve_forward(const Front& f, double* x, double* w) {
-  const int own = f.own_rows(), below = f.below_rows();
-  for (int i = 0; i < below; i += lanes) store(w + i, Lanes{});
-  for (int j = 0; j < f.own; j += B) {
-    const double *c0 = f.values + static_cast<std::size_t>(j) * f.rows(), *c1 = c0 + f.rows(), *c2 = c1 + f.rows();
-    const double x0 = x[j] * c0[j], x1 = (x[j + 1] - c0[j + 1] * x0) * c1[j + 1], x2 = (x[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) * c2[j + 2];
-    x[j] = x0, x[j + 1] = x1, x[j + 2] = x2;
-    for (int i = j + B; i < f.own; ++i) x[i] -= c0[i] * x0 + c1[i] * x1 + c2[i] * x2;
-    for (int i = 0; i < below; i += lanes) {
+PIGMENT_INLINE void keep_columns(const Front& f, int begin, int end, float* to) {
+  const auto rows = static_cast<std::size_t>(f.rows());
+  for (std::size_t q = begin * rows; q < end * rows; q += lanes) {
+    Lanes v;
+    load(v, f.values + q);
+    store_single(to + q, v);
+  }
+}
+
+// Three columns from `column` on.
+struct Three {
+  const float *c0, *c1, *c2;
+};
+PIGMENT_INLINE Three columns(const KeptColumns& f, int column) {
+  const float* c0 = f.values + static_cast<std::size_t>(column) * f.rows();
+  return {c0, c0 + f.rows(), c0 + 2 * f.rows()};
+}
+
+PIGMENT_INLINE void forward_rows(const KeptColumns& f, int begin, int end, const double* x, int row, int row_end, double* w) {
+  for (int j = begin; j < end; j += B) {
+    const auto [c0, c1, c2] = columns(f, j);
+    const double x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
+    for (int i = row; i < row_end; i += lanes) {
       Lanes sum, a, b, c;
-      load(sum, w + i), load(a, c0 + own + i), load(b, c1 + own + i), load(c, c2 + own + i);
+      load(sum, w + i), load_single(a, c0 + i), load_single(b, c1 + i), load_single(c, c2 + i);
       store(w + i, sum + (a * x0 + b * x1 + c * x2));
     }
   }
 }
-PIGMENT_INLINE void solve_backward(const Front& f, double* x, const double* w) {
-  const int own = f.own_rows(), below = f.below_rows();
-  for (int j = f.own - B; j >= 0; j -= B) {
-    const double *c0 = f.values + static_cast<std::size_t>(j) * f.rows(), *c1 = c0 + f.rows(), *c2 = c1 + f.rows();
-    Lanes s0{}, s1{}, s2{};
-    for (int i = 0; i < below; i += lanes) {
-      Lanes at, a, b, c;
-      load(at, w + i), load(a, c0 + own + i), load(b, c1 + own + i), load(c, c2 + own + i);
-      s0 += a * at, s1 += b * at, s2 += c * at;
-    }
-    double r0 = x[j] - sum_of(s0), r1 = x[j + 1] - sum_of(s1), r2 = x[j + 2] - sum_of(s2);
-    for (int i = j + B; i < f.own; ++i) r0 -= c0[i] * x[i], r1 -= c1[i] * x[i], r2 -= c2[i] * x[i];
+PIGMENT_INLINE void forward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+  for (int j = begin; j < end; j += B) {
+    const auto [c0, c1, c2] = columns(f, j);
+    const double x0 = (x[j] - w[j]) * c0[j], x1 = (x[j + 1] - w[j + 1] - c0[j + 1] * x0) * c1[j + 1],
+                 x2 = (x[j + 2] - w[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) * c2[j + 2];
+    x[j] = x0, x[j + 1] = x1, x[j + 2] = x2;
+    int i = j + B;
+    for (; i % lanes && i < end; ++i) w[i] += c0[i] * x0 + c1[i] * x1 + c2[i] * x2;
+    if (i < end) kernel::forward_rows(f, j, j + B, x, i, whole_lanes(end), w);
+  }
+}
+PIGMENT_INLINE void backward_columns(const KeptColumns& f, int column, int panel_end, double* x, const double* w) {
+  const auto [c0, c1, c2] = columns(f, column);
+  Lanes s0{}, s1{}, s2{};
+  for (int i = whole_lanes(panel_end); i < f.rows(); i += lanes) {
+    Lanes at, a, b, c;
+    load(at, w + i), load_single(a, c0 + i), load_single(b, c1 + i), load_single(c, c2 + i);
+    s0 += a * at, s1 += b * at, s2 += c * at;
+  }
+  x[column] -= sum_of(s0), x[column + 1] -= sum_of(s1), x[column + 2] -= sum_of(s2);
+}
+PIGMENT_INLINE void backward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+  for (int j = end - B; j >= begin; j -= B) {
+    const auto [c0, c1, c2] = columns(f, j);
+    double r0 = x[j], r1 = x[j + 1], r2 = x[j + 2];
+    for (int i = j + B; i < end; ++i) r0 -= c0[i] * x[i], r1 -= c1[i] * x[i], r2 -= c2[i] * x[i];
     x[j + 2] = r2 * c2[j + 2];
     x[j + 1] = (r1 - c1[j + 2] * x[j + 2]) * c1[j + 1];
     x[j] = (r0 - c0[j + 1] * x[j + 1] - c0[j + 2] * x[j + 2]) * c0[j];
   }
+  for (int j = begin; j < end; ++j) w[j] = x[j];
 }
 
 PIGMENT_INLINE void add_rows(double* to, const double* from, int n) {
@@ -159,8 +188,11 @@ PIGMENT_WIDE bool factor_panel(const Front& f, int begin, int end) { return kern
 PIGMENT_WIDE void subtract_from_own(const Front& f, int begin, int end, int column) { kernel::subtract_from_own(f, begin, end, column); }
 PIGMENT_WIDE void subtract_from_below(const Front& f, int begin, int end, int column, bool add) { kernel::subtract_from_below(f, begin, end, column, add); }
 PIGMENT_WIDE bool factor_front(const Front& f, bool add) { return kernel::factor_front(f, add); }
-PIGMENT_WIDE void solve_forward(const Front& f, double* x, double* w) { kernel::solve_forward(f, x, w); }
-PIGMENT_WIDE void solve_backward(const Front& f, double* x, const double* w) { kernel::solve_backward(f, x, w); }
+PIGMENT_WIDE void keep_columns(const Front& f, int begin, int end, float* to) { kernel::keep_columns(f, begin, end, to); }
+PIGMENT_WIDE void forward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) { kernel::forward_panel(f, begin, end, x, w); }
+PIGMENT_WIDE void forward_rows(const KeptColumns& f, int begin, int end, const double* x, int row, int row_end, double* w) { kernel::forward_rows(f, begin, end, x, row, row_end, w); }
+PIGMENT_WIDE void backward_columns(const KeptColumns& f, int column, int panel_end, double* x, const double* w) { kernel::backward_columns(f, column, panel_end, x, w); }
+PIGMENT_WIDE void backward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) { kernel::backward_panel(f, begin, end, x, w); }
 PIGMENT_WIDE void add_rows(double* to, const double* from, int n) { kernel::add_rows(to, from, n); }
 }  // namespace wide
 
@@ -174,8 +206,19 @@ void subtract_from_below(const Front& f, int begin, int end, int column, bool ad
   wide_processor() ? wide::subtract_from_below(f, begin, end, column, add) : kernel::subtract_from_below(f, begin, end, column, add);
 }
 bool factor_front(const Front& f, bool add) { return wide_processor() ? wide::factor_front(f, add) : kernel::factor_front(f, add); }
-void solve_forward(const Front& f, double* x, double* w) { wide_processor() ? wide::solve_forward(f, x, w) : kernel::solve_forward(f, x, w); }
-void solve_backward(const Front& f, double* x, const double* w) { wide_processor() ? wide::solve_backward(f, x, w) : kernel::solve_backward(f, x, w); }
+void keep_columns(const Front& f, int begin, int end, float* to) { wide_processor() ? wide::keep_columns(f, begin, end, to) : kernel::keep_columns(f, begin, end, to); }
+void forward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+  wide_processor() ? wide::forward_panel(f, begin, end, x, w) : kernel::forward_panel(f, begin, end, x, w);
+}
+void forward_rows(const KeptColumns& f, int begin, int end, const double* x, int row, int row_end, double* w) {
+  wide_processor() ? wide::forward_rows(f, begin, end, x, row, row_end, w) : kernel::forward_rows(f, begin, end, x, row, row_end, w);
+}
+void backward_columns(const KeptColumns& f, int column, int panel_end, double* x, const double* w) {
+  wide_processor() ? wide::backward_columns(f, column, panel_end, x, w) : kernel::backward_columns(f, column, panel_end, x, w);
+}
+void backward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+  wide_processor() ? wide::backward_panel(f, begin, end, x, w) : kernel::backward_panel(f, begin, end, x, w);
+}
 void add_rows(double* to, const double* from, int n) { wide_processor() ? wide::add_rows(to, from, n) : kernel::add_rows(to, from, n); }
 
 }  // namespace pigment::solve

@@ -33,10 +33,25 @@ void subtract_from_below(const Front&, int begin, int end, int column, bool add)
 // All of it by one thread; `add`: whether there is something in `update`.
 bool factor_front(const Front&, bool add);
 
-// Own unknowns x from L x = b, in place, and into w (below_rows()) what the rows below lose to them.
-void solve_forward(const Front&, double* x, double* w);
-// Own unknowns x from L^T x = b, in place, given those of the rows below (w, zero in rows without an unknown).
-void solve_backward(const Front&, double* x, const double* w);
+// The eliminated columns as they are kept for solves: in single precision, half as much to read, as solves wait for nothing else. Of a stiff
+// matrix that is no exact inverse any more, but as good a preconditioner.
+struct KeptColumns {
+  const float* values;  // of rows() each, as in the front
+  int own, below;
+  int own_rows() const { return whole_lanes(own); }
+  int rows() const { return own_rows() + whole_lanes(below); }
+};
+// float of each of the columns from begin to end of `values`.
+void keep_columns(const Front&, int begin, int end, float* to);
+
+// L x = b for own unknowns x, in place, panel by panel; w (rows()) holds what the rows lose to those before, zero at first. The panel's own
+// unknowns, then from what rows from row to row_end, after the panel, lose to them. Rows in whole lanes.
+void forward_panel(const KeptColumns&, int begin, int end, double* x, double* w);
+void forward_rows(const KeptColumns&, int begin, int end, const double* x, int row, int row_end, double* w);
+// L^T x = b likewise, from the last panel to the first; w holds the unknowns of all rows after the panel, zero where a row has none. What the three
+// unknowns from `column` on lose to them is taken from x; then the panel's own, into x and w.
+void backward_columns(const KeptColumns&, int column, int panel_end, double* x, const double* w);
+void backward_panel(const KeptColumns&, int begin, int end, double* x, double* w);
 
 // to += from, n numbers.
 void add_rows(double* to, const double* from, int n);

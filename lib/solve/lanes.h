@@ -30,6 +30,17 @@ inline bool wide_processor() {
 
 PIGMENT_INLINE void load(Lanes& v, const double* at) { std::memcpy(&v, at, sizeof v); }
 PIGMENT_INLINE void store(double* at, const Lanes& v) { std::memcpy(at, &v, sizeof v); }
+// Four numbers of single precision.
+typedef float SingleLanes __attribute__((vector_size(lanes * sizeof(float))));
+PIGMENT_INLINE void load_single(Lanes& v, const float* at) {
+  SingleLanes single;
+  std::memcpy(&single, at, sizeof single);
+  v = __builtin_convertvector(single, Lanes);
+}
+PIGMENT_INLINE void store_single(float* at, const Lanes& v) {
+  const SingleLanes single = __builtin_convertvector(v, SingleLanes);
+  std::memcpy(at, &single, sizeof single);
+}
 PIGMENT_INLINE void add_to(double* at, const Lanes& v) {
   Lanes sum;
   load(sum, at);
