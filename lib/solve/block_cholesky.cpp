@@ -38,6 +38,7 @@ bool BlockCholesky::analyze(int nodes, const std::vector<std::pair<std::int32_t,
     largest_update_ = std::max(largest_update_, static_cast<std::size_t>(f.below) * f.below_rows());
     std::fill(supernode_of.begin() + s.first, supernode_of.begin() + s.end, static_cast<std::int32_t>(k));
   }
+  kept_size_ = values;
   kept_ = std::make_unique_for_overwrite<float[]>(values);
   top_rows_.resize(most_rows_);
   find_children();
@@ -183,7 +184,7 @@ void BlockCholesky::clear(std::int32_t k, const Front& f, int begin, int end) co
     std::fill(f.update + j * below_rows + Front::first_row(j), f.update + (j + 1) * below_rows, 0.0);
 }
 
-void BlockCholesky::add_numbers(std::int32_t k, const Front& f, const std::vector<double>& diagonal, const std::vector<double>& between) const {
+void BlockCholesky::add_numbers(std::int32_t k, const Front& f, std::span<const double> diagonal, std::span<const double> between) const {
   const Supernode& s = tree_.supernodes[k];
   const auto rows = static_cast<std::size_t>(f.rows());
   for (std::int32_t node = s.first; node < s.end; ++node)
@@ -212,14 +213,14 @@ void BlockCholesky::add_update(const Front& f, std::int32_t child, int from) con
   }
 }
 
-void BlockCholesky::gather(std::int32_t k, const Front& f, const std::vector<double>& diagonal, const std::vector<double>& between) const {
+void BlockCholesky::gather(std::int32_t k, const Front& f, std::span<const double> diagonal, std::span<const double> between) const {
   clear(k, f, 0, f.own + f.below);
   add_numbers(k, f, diagonal, between);
   for (std::int32_t c = places_[k].children_begin; c < places_[k].children_end; ++c)
     for (int from = 0; from < front(children_[c]).below; from += B) add_update(f, children_[c], from);
 }
 
-bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* values, double* work) const {
+bool BlockCholesky::factor_part(std::int32_t part, std::span<const double> diagonal, std::span<const double> between, double* values, double* work) const {
   for (std::int32_t k = parts_[part].begin; k < parts_[part].end; ++k) {
     if (places_[k].part != part) continue;
     // Its update goes where the children's are, once they have been read.
@@ -237,7 +238,7 @@ bool BlockCholesky::factor_part(std::int32_t part, const std::vector<double>& di
 }
 
 // By all threads; `good` is shared.
-void BlockCholesky::factor_top(const std::vector<double>& diagonal, const std::vector<double>& between, double* values, bool& good) const {
+void BlockCholesky::factor_top(std::span<const double> diagonal, std::span<const double> between, double* values, bool& good) const {
   for (std::size_t t = 0; t < top_.size() && good; ++t) {
     const std::int32_t k = top_[t];
     const Front f = front(k, values, update_of(k));
@@ -266,7 +267,7 @@ void BlockCholesky::factor_top(const std::vector<double>& diagonal, const std::v
   }
 }
 
-bool BlockCholesky::factorize(const std::vector<double>& diagonal, const std::vector<double>& between) {
+bool BlockCholesky::factorize(std::span<const double> diagonal, std::span<const double> between) {
   bool good = true;
   // Here, since nothing may be thrown out of a parallel region.
   const std::size_t room = largest_values_ + largest_update_;

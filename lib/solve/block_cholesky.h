@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,9 +23,11 @@ class BlockCholesky {
   const std::vector<std::int32_t>& place() const { return tree_.place; }
   // Of factorize, in multiply-adds, about.
   double work() const { return work_; }
+  // What a solve reads twice.
+  std::size_t bytes() const { return kept_size_ * sizeof(float); }
   // diagonal: 9 numbers for each place; between: 9 for each of the pairs, row by row, rows of its second node, columns of its first.
   // False where a pivot is not positive.
-  bool factorize(const std::vector<double>& diagonal, const std::vector<double>& between);
+  bool factorize(std::span<const double> diagonal, std::span<const double> between);
   // x = A^-1 x, but for L's rounding to single precision, 3 numbers for each place. By all threads of the parallel region that it is
   // called in; outside of one, by one thread.
   void solve(double* x);
@@ -64,11 +67,11 @@ class BlockCholesky {
   double* update_of(std::int32_t supernode) const;
   // What the front is before its elimination: nothing, the matrix's own numbers, and of a child's update the three columns from `from` on.
   void clear(std::int32_t supernode, const Front&, int begin, int end) const;
-  void add_numbers(std::int32_t supernode, const Front&, const std::vector<double>& diagonal, const std::vector<double>& between) const;
+  void add_numbers(std::int32_t supernode, const Front&, std::span<const double> diagonal, std::span<const double> between) const;
   void add_update(const Front&, std::int32_t child, int from) const;
-  void gather(std::int32_t supernode, const Front&, const std::vector<double>& diagonal, const std::vector<double>& between) const;
-  bool factor_part(std::int32_t part, const std::vector<double>& diagonal, const std::vector<double>& between, double* values, double* update) const;
-  void factor_top(const std::vector<double>& diagonal, const std::vector<double>& between, double* values, bool& good) const;
+  void gather(std::int32_t supernode, const Front&, std::span<const double> diagonal, std::span<const double> between) const;
+  bool factor_part(std::int32_t part, std::span<const double> diagonal, std::span<const double> between, double* values, double* update) const;
+  void factor_top(std::span<const double> diagonal, std::span<const double> between, double* values, bool& good) const;
   // What the rows below lost (w), and their unknowns.
   void scatter(std::int32_t supernode, const double* w, double* x, double* to_top) const;
   void collect(std::int32_t supernode, const double* x, double* w) const;
@@ -89,6 +92,7 @@ class BlockCholesky {
   std::vector<Part> parts_;
   std::vector<std::int32_t> parts_by_work_, top_;
   std::size_t top_unknowns_ = 0, top_memory_ = 0, largest_values_ = 0, largest_update_ = 0, most_rows_ = 0;
+  std::size_t kept_size_ = 0;
   std::unique_ptr<float[]> kept_;
   std::vector<std::unique_ptr<double[]>> updates_;  // of each part, then of the top
   std::vector<double> to_top_;                      // of each part: what the top's unknowns get from it

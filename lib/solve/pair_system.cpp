@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/scratch.h"
 #include "solve/pair_kernel.h"
 #include "solve/pair_product.h"
 
@@ -150,11 +149,11 @@ template void gather_diagonal_blocks<6>(const PairTopology&, int, const double*,
 namespace {
 
 template <int D>
-std::vector<double> blocks(const PairSystem& system) {
+Scratch blocks(const PairSystem& system) {
   const PairTopology& topology = *system.topology;
   const int count = topology.chunks().count();
   constexpr std::size_t B = D * (D + 1) / 2;
-  std::vector<double> block(topology.particles() * B), halo(topology.halo_count() * B);
+  Scratch block(topology.particles() * B), halo(topology.halo_count() * B);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
@@ -172,7 +171,7 @@ void apply(const PairSystem& system, const std::vector<double>& x, std::vector<d
   else apply_all<3>(system, x, y);
 }
 
-std::vector<double> diagonal_blocks(const PairSystem& system) {
+Scratch diagonal_blocks(const PairSystem& system) {
   return system.rotation ? blocks<6>(system) : blocks<3>(system);
 }
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/scratch.h"
 #include "solve/chunks.h"
 #include "solve/mean_flow.h"
 #include "solve/pair_blocks.h"
@@ -76,7 +77,7 @@ struct PairSystem {
 // y = A x; vectors of D entries a particle.
 void apply(const PairSystem&, const std::vector<double>& x, std::vector<double>& y);
 // Diagonal block of every particle, its lower triangle row by row, D (D + 1)/2 entries a particle; without the mean flow's.
-std::vector<double> diagonal_blocks(const PairSystem&);
+Scratch diagonal_blocks(const PairSystem&);
 // The same in two steps, chunk by chunk, for D unknowns: what a chunk's terms add to its own particles (from block on, set, then summed)
 // and to those of others (its slots of the halo); and, after all chunks, those slots added to their particles.
 template <int D>

@@ -133,18 +133,18 @@ bool StiffNetwork::Data::factorize(const PairSystem& system) {
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const std::size_t n = system.topology->particles();
   const int D = system.unknowns_per_particle(), entries = D * (D + 1) / 2;
-  const std::vector<double> block = diagonal_blocks(system);
+  const Scratch block = diagonal_blocks(system);
   held = system.held;
   const auto is_held = [&](std::size_t k) { return !held.empty() && held[k]; };
   cross.resize(system.rotation ? n * 9 : 0);
   spin.resize(cross.size());
   x.resize(3 * n);
-  std::vector<double> diagonal(9 * n), between(9 * pairs.size());
+  Scratch diagonal(9 * n), between(9 * pairs.size());
 #pragma omp parallel
   {
 #pragma omp for schedule(static) nowait
     for (std::size_t k = 0; k < n; ++k) {
-      const double* own = &block[k * entries];
+      const double* own = block.data() + k * entries;
       Matrix uu;
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c <= r; ++c) uu(r, c) = uu(c, r) = own[at(r, c)];
@@ -178,7 +178,7 @@ bool StiffNetwork::Data::factorize(const PairSystem& system) {
         }
     }
   }
-  return factor.factorize(diagonal, between);
+  return factor.factorize({diagonal.data(), 9 * n}, {between.data(), 9 * pairs.size()});
 }
 
 StiffNetwork::StiffNetwork() = default;

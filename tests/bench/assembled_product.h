@@ -11,7 +11,7 @@ namespace pigment::bench {
 class AssembledSystem {
  public:
   explicit AssembledSystem(const solve::PairSystem& s) : topology_(*s.topology), chunks_(s.full.size()) {
-    const std::vector<double> triangles = solve::diagonal_blocks(s);
+    const Scratch triangles = solve::diagonal_blocks(s);
     diagonal_.resize(topology_.particles());
     for (std::size_t k = 0; k < diagonal_.size(); ++k)
       for (int r = 0; r < 6; ++r)

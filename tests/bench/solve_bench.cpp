@@ -201,6 +201,26 @@ void network_factor(benchmark::State& state) {
   state.counters["pairs"] = static_cast<double>(n.pairs.size());
   omp_set_num_threads(omp_get_num_procs());
 }
+// What one iteration pays for the factor.
+void network_solve(benchmark::State& state) {
+  const Case& c = resistance_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  omp_set_num_threads(static_cast<int>(state.range(2)));
+  const Network n = network_of(c);
+  solve::BlockCholesky factor;
+  factor.analyze(static_cast<int>(c.force.size()), n.pairs);
+  std::vector<double> diagonal(n.diagonal.size());
+  for (std::size_t k = 0; k < c.force.size(); ++k) std::copy_n(&n.diagonal[9 * k], 9, &diagonal[9 * static_cast<std::size_t>(factor.place()[k])]);
+  if (!factor.factorize(diagonal, n.between)) state.SkipWithError("not positive definite");
+  const std::vector<double> b(3 * c.force.size(), 1.0);
+  std::vector<double> x;
+  for (auto _ : state) {
+    x = b;
+#pragma omp parallel
+    factor.solve(x.data());
+  }
+  state.counters["bytes_of_factor"] = static_cast<double>(factor.bytes());
+  omp_set_num_threads(omp_get_num_procs());
+}
 void network_factor_by_eigen(benchmark::State& state) {
   const Case& c = resistance_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   const Network n = network_of(c);
@@ -235,6 +255,7 @@ BENCHMARK(product)->ArgNames({"particles", "vol%", "threads"})->Apply(sizes_and<
 BENCHMARK(product_in_cache)->ArgNames({"particles", "vol%"})->Args({10000, 41})->Args({10000, 60})->Unit(benchmark::kMicrosecond)->UseRealTime();
 BENCHMARK(assembled_product)->ArgNames({"particles", "vol%", "threads"})->Apply(sizes_and<1, 2>)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(network_factor)->ArgNames({"particles", "vol%", "threads"})->Args({10000, 60, 1})->Args({10000, 60, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(network_solve)->ArgNames({"particles", "vol%", "threads"})->Args({10000, 60, 1})->Args({10000, 60, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(network_factor_by_eigen)->ArgNames({"particles", "vol%"})->Args({10000, 60})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(solve_cold)->ArgNames({"particles", "vol%", "digits"})->Apply(sizes_and<3, 6>)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(solve_warm)->ArgNames({"particles", "vol%", "digits"})->Apply(sizes_and<3, 6>)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -162,7 +162,7 @@ TEST(PairSystem, DiagonalBlocksAreThoseOfTheMatrix) {
     make(e, 50, rotation, 7, 0.2);
     const int D = e.system.unknowns_per_particle();
     const MatrixXd a = dense(e.system, 50);
-    const std::vector<double> blocks = diagonal_blocks(e.system);
+    const pigment::Scratch blocks = diagonal_blocks(e.system);
     for (int k = 0; k < 50; ++k)
       for (int r = 0; r < D; ++r)
         for (int c = 0; c <= r; ++c) EXPECT_NEAR(blocks[k * D * (D + 1) / 2 + r * (r + 1) / 2 + c], a(k * D + r, k * D + c), 1e-12);  // entries reach 100
