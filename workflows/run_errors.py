@@ -48,6 +48,13 @@ def state(study, case, at=None):
                 "pressure": observables["surface_pressure/value"][max(0, frame - 3):frame + 1].mean()}
 
 
+def mean_state(states):
+    """Of runs of several packings of one layer: what single paths have by chance goes out of it."""
+    states = list(states)
+    mean = lambda key: np.mean([s[key] for s in states], axis=0)    # noqa: E731
+    return {"profile": mean("profile"), "gaps": np.sort(np.concatenate([s["gaps"] for s in states])), "clustered": mean("clustered"), "pressure": mean("pressure")}
+
+
 def share(gaps):
     return np.searchsorted(gaps, GRID) / max(1, len(gaps))
 

@@ -28,9 +28,9 @@ class BlockCholesky {
   // diagonal: 9 numbers for each place; between: 9 for each of the pairs, row by row, rows of its second node, columns of its first.
   // False where a pivot is not positive.
   bool factorize(std::span<const double> diagonal, std::span<const double> between);
-  // x = A^-1 x, but for L's rounding to single precision, 3 numbers for each place. By all threads of the parallel region that it is
-  // called in; outside of one, by one thread.
-  void solve(double* x);
+  // x = A^-1 x, but for L's rounding to single precision, 3 numbers for each place, of one or two right-hand sides, one after the other.
+  // By all threads of the parallel region that it is called in; outside of one, by one thread.
+  void solve(double* x, int sides = 1);
 
  private:
   // Of a supernode.
@@ -72,13 +72,26 @@ class BlockCholesky {
   void gather(std::int32_t supernode, const Front&, std::span<const double> diagonal, std::span<const double> between) const;
   bool factor_part(std::int32_t part, std::span<const double> diagonal, std::span<const double> between, double* values, double* update) const;
   void factor_top(std::span<const double> diagonal, std::span<const double> between, double* values, bool& good) const;
+  // x of a supernode's first unknown, and room for its rows; of each right-hand side.
+  template <int N>
+  Sides<N> own(std::int32_t supernode, double* x) const;
+  template <int N>
+  Sides<N> rows(double* w) const;
   // What the rows below lost (w), and their unknowns.
+  template <int N>
   void scatter(std::int32_t supernode, const double* w, double* x, double* to_top) const;
+  template <int N>
   void collect(std::int32_t supernode, const double* x, double* w) const;
+  template <int N>
   void forward(std::int32_t supernode, double* x, double* to_top, double* w) const;
+  template <int N>
   void backward(std::int32_t supernode, double* x, double* w) const;
+  template <int N>
   void forward_top(double* x);
+  template <int N>
   void backward_top(double* x);
+  template <int N>
+  void solve_sides(double* x);
   bool has_children(std::int32_t supernode) const { return places_[supernode].children_begin < places_[supernode].children_end; }
 
   EliminationTree tree_;

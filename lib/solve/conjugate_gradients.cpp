@@ -104,12 +104,27 @@ SolveReport solve(const PairSystem& system, std::vector<double>& x_out, const Co
       for (std::size_t q = begin; q < end; ++q) sum += x[q] * (r[q] + p[q]);
       partial_energy[c] = sum;
     }
-    precondition(partial_bb);
     // Without a guess the residual is b itself.
-    if (guess) {
+    if (guess && network) {
 #pragma omp for schedule(static)
-      for (int c = 0; c < count; ++c) std::copy(p.data() + begin_of(c) * S, p.data() + begin_of(c + 1) * S, r.data() + begin_of(c) * S);
-      precondition(partial_rz);
+      for (int c = 0; c < count; ++c) {
+        network->eliminate(begin_of(c), begin_of(c + 1), r.data(), 0);
+        network->eliminate(begin_of(c), begin_of(c + 1), p.data(), 1);
+      }
+      network->solve(2);
+#pragma omp for schedule(static)
+      for (int c = 0; c < count; ++c) {
+        partial_bb[c] = network->substitute(begin_of(c), begin_of(c + 1), system.held, r.data(), z.data(), 0);
+        partial_rz[c] = network->substitute(begin_of(c), begin_of(c + 1), system.held, p.data(), z.data(), 1);
+        std::copy(p.data() + begin_of(c) * S, p.data() + begin_of(c + 1) * S, r.data() + begin_of(c) * S);
+      }
+    } else {
+      precondition(partial_bb);
+      if (guess) {
+#pragma omp for schedule(static)
+        for (int c = 0; c < count; ++c) std::copy(p.data() + begin_of(c) * S, p.data() + begin_of(c + 1) * S, r.data() + begin_of(c) * S);
+        precondition(partial_rz);
+      }
     }
 #pragma omp for schedule(static)
     for (int c = 0; c < count; ++c) std::copy(z.data() + begin_of(c) * S, z.data() + begin_of(c + 1) * S, p.data() + begin_of(c) * S);

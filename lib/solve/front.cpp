@@ -127,48 +127,63 @@ PIGMENT_INLINE Three columns(const KeptColumns& f, int column) {
   return {c0, c0 + f.rows(), c0 + 2 * f.rows()};
 }
 
-PIGMENT_INLINE void forward_rows(const KeptColumns& f, int begin, int end, const double* x, int row, int row_end, double* w) {
+template <int N>
+PIGMENT_INLINE void forward_rows(const KeptColumns& f, int begin, int end, Sides<N> x, int row, int row_end, Sides<N> w) {
   for (int j = begin; j < end; j += B) {
     const auto [c0, c1, c2] = columns(f, j);
-    const double x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
     for (int i = row; i < row_end; i += lanes) {
-      Lanes sum, a, b, c;
-      load(sum, w + i), load_single(a, c0 + i), load_single(b, c1 + i), load_single(c, c2 + i);
-      store(w + i, sum + (a * x0 + b * x1 + c * x2));
+      Lanes a, b, c;
+      load_single(a, c0 + i), load_single(b, c1 + i), load_single(c, c2 + i);
+      for (int n = 0; n < N; ++n) add_to(w.of[n] + i, a * x.of[n][j] + b * x.of[n][j + 1] + c * x.of[n][j + 2]);
     }
   }
 }
-PIGMENT_INLINE void forward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+template <int N>
+PIGMENT_INLINE void forward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) {
   for (int j = begin; j < end; j += B) {
     const auto [c0, c1, c2] = columns(f, j);
-    const double x0 = (x[j] - w[j]) * c0[j], x1 = (x[j + 1] - w[j + 1] - c0[j + 1] * x0) * c1[j + 1],
-                 x2 = (x[j + 2] - w[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) * c2[j + 2];
-    x[j] = x0, x[j + 1] = x1, x[j + 2] = x2;
-    int i = j + B;
-    for (; i % lanes && i < end; ++i) w[i] += c0[i] * x0 + c1[i] * x1 + c2[i] * x2;
-    if (i < end) kernel::forward_rows(f, j, j + B, x, i, whole_lanes(end), w);
+    for (int n = 0; n < N; ++n) {
+      double *y = x.of[n], *lost = w.of[n];
+      const double x0 = (y[j] - lost[j]) * c0[j], x1 = (y[j + 1] - lost[j + 1] - c0[j + 1] * x0) * c1[j + 1],
+                   x2 = (y[j + 2] - lost[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) * c2[j + 2];
+      y[j] = x0, y[j + 1] = x1, y[j + 2] = x2;
+      for (int i = j + B; i % lanes && i < end; ++i) lost[i] += c0[i] * x0 + c1[i] * x1 + c2[i] * x2;
+    }
+    if (const int i = whole_lanes(j + B); i < end) kernel::forward_rows(f, j, j + B, x, i, whole_lanes(end), w);
   }
 }
-PIGMENT_INLINE void backward_columns(const KeptColumns& f, int column, int panel_end, double* x, const double* w) {
+template <int N>
+PIGMENT_INLINE void backward_columns(const KeptColumns& f, int column, int panel_end, Sides<N> x, Sides<N> w) {
   const auto [c0, c1, c2] = columns(f, column);
-  Lanes s0{}, s1{}, s2{};
+  Lanes s0[N] = {}, s1[N] = {}, s2[N] = {};
   for (int i = whole_lanes(panel_end); i < f.rows(); i += lanes) {
-    Lanes at, a, b, c;
-    load(at, w + i), load_single(a, c0 + i), load_single(b, c1 + i), load_single(c, c2 + i);
-    s0 += a * at, s1 += b * at, s2 += c * at;
+    Lanes a, b, c;
+    load_single(a, c0 + i), load_single(b, c1 + i), load_single(c, c2 + i);
+    for (int n = 0; n < N; ++n) {
+      Lanes at;
+      load(at, w.of[n] + i);
+      s0[n] += a * at, s1[n] += b * at, s2[n] += c * at;
+    }
   }
-  x[column] -= sum_of(s0), x[column + 1] -= sum_of(s1), x[column + 2] -= sum_of(s2);
+  for (int n = 0; n < N; ++n) {
+    double* y = x.of[n] + column;
+    y[0] -= sum_of(s0[n]), y[1] -= sum_of(s1[n]), y[2] -= sum_of(s2[n]);
+  }
 }
-PIGMENT_INLINE void backward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+template <int N>
+PIGMENT_INLINE void backward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) {
   for (int j = end - B; j >= begin; j -= B) {
     const auto [c0, c1, c2] = columns(f, j);
-    double r0 = x[j], r1 = x[j + 1], r2 = x[j + 2];
-    for (int i = j + B; i < end; ++i) r0 -= c0[i] * x[i], r1 -= c1[i] * x[i], r2 -= c2[i] * x[i];
-    x[j + 2] = r2 * c2[j + 2];
-    x[j + 1] = (r1 - c1[j + 2] * x[j + 2]) * c1[j + 1];
-    x[j] = (r0 - c0[j + 1] * x[j + 1] - c0[j + 2] * x[j + 2]) * c0[j];
+    for (int n = 0; n < N; ++n) {
+      double* y = x.of[n];
+      double r0 = y[j], r1 = y[j + 1], r2 = y[j + 2];
+      for (int i = j + B; i < end; ++i) r0 -= c0[i] * y[i], r1 -= c1[i] * y[i], r2 -= c2[i] * y[i];
+      y[j + 2] = r2 * c2[j + 2];
+      y[j + 1] = (r1 - c1[j + 2] * y[j + 2]) * c1[j + 1];
+      y[j] = (r0 - c0[j + 1] * y[j + 1] - c0[j + 2] * y[j + 2]) * c0[j];
+    }
   }
-  for (int j = begin; j < end; ++j) w[j] = x[j];
+  for (int n = 0; n < N; ++n) std::copy(x.of[n] + begin, x.of[n] + end, w.of[n] + begin);
 }
 
 PIGMENT_INLINE void add_rows(double* to, const double* from, int n) {
@@ -189,10 +204,14 @@ PIGMENT_WIDE void subtract_from_own(const Front& f, int begin, int end, int colu
 PIGMENT_WIDE void subtract_from_below(const Front& f, int begin, int end, int column, bool add) { kernel::subtract_from_below(f, begin, end, column, add); }
 PIGMENT_WIDE bool factor_front(const Front& f, bool add) { return kernel::factor_front(f, add); }
 PIGMENT_WIDE void keep_columns(const Front& f, int begin, int end, float* to) { kernel::keep_columns(f, begin, end, to); }
-PIGMENT_WIDE void forward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) { kernel::forward_panel(f, begin, end, x, w); }
-PIGMENT_WIDE void forward_rows(const KeptColumns& f, int begin, int end, const double* x, int row, int row_end, double* w) { kernel::forward_rows(f, begin, end, x, row, row_end, w); }
-PIGMENT_WIDE void backward_columns(const KeptColumns& f, int column, int panel_end, double* x, const double* w) { kernel::backward_columns(f, column, panel_end, x, w); }
-PIGMENT_WIDE void backward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) { kernel::backward_panel(f, begin, end, x, w); }
+template <int N>
+PIGMENT_WIDE void forward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) { kernel::forward_panel(f, begin, end, x, w); }
+template <int N>
+PIGMENT_WIDE void forward_rows(const KeptColumns& f, int begin, int end, Sides<N> x, int row, int row_end, Sides<N> w) { kernel::forward_rows(f, begin, end, x, row, row_end, w); }
+template <int N>
+PIGMENT_WIDE void backward_columns(const KeptColumns& f, int column, int panel_end, Sides<N> x, Sides<N> w) { kernel::backward_columns(f, column, panel_end, x, w); }
+template <int N>
+PIGMENT_WIDE void backward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) { kernel::backward_panel(f, begin, end, x, w); }
 PIGMENT_WIDE void add_rows(double* to, const double* from, int n) { kernel::add_rows(to, from, n); }
 }  // namespace wide
 
@@ -207,18 +226,30 @@ void subtract_from_below(const Front& f, int begin, int end, int column, bool ad
 }
 bool factor_front(const Front& f, bool add) { return wide_processor() ? wide::factor_front(f, add) : kernel::factor_front(f, add); }
 void keep_columns(const Front& f, int begin, int end, float* to) { wide_processor() ? wide::keep_columns(f, begin, end, to) : kernel::keep_columns(f, begin, end, to); }
-void forward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+template <int N>
+void forward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) {
   wide_processor() ? wide::forward_panel(f, begin, end, x, w) : kernel::forward_panel(f, begin, end, x, w);
 }
-void forward_rows(const KeptColumns& f, int begin, int end, const double* x, int row, int row_end, double* w) {
+template <int N>
+void forward_rows(const KeptColumns& f, int begin, int end, Sides<N> x, int row, int row_end, Sides<N> w) {
   wide_processor() ? wide::forward_rows(f, begin, end, x, row, row_end, w) : kernel::forward_rows(f, begin, end, x, row, row_end, w);
 }
-void backward_columns(const KeptColumns& f, int column, int panel_end, double* x, const double* w) {
+template <int N>
+void backward_columns(const KeptColumns& f, int column, int panel_end, Sides<N> x, Sides<N> w) {
   wide_processor() ? wide::backward_columns(f, column, panel_end, x, w) : kernel::backward_columns(f, column, panel_end, x, w);
 }
-void backward_panel(const KeptColumns& f, int begin, int end, double* x, double* w) {
+template <int N>
+void backward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) {
   wide_processor() ? wide::backward_panel(f, begin, end, x, w) : kernel::backward_panel(f, begin, end, x, w);
 }
+template void forward_panel<1>(const KeptColumns&, int, int, Sides<1>, Sides<1>);
+template void forward_panel<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
+template void forward_rows<1>(const KeptColumns&, int, int, Sides<1>, int, int, Sides<1>);
+template void forward_rows<2>(const KeptColumns&, int, int, Sides<2>, int, int, Sides<2>);
+template void backward_columns<1>(const KeptColumns&, int, int, Sides<1>, Sides<1>);
+template void backward_columns<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
+template void backward_panel<1>(const KeptColumns&, int, int, Sides<1>, Sides<1>);
+template void backward_panel<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
 void add_rows(double* to, const double* from, int n) { wide_processor() ? wide::add_rows(to, from, n) : kernel::add_rows(to, from, n); }
 
 }  // namespace pigment::solve

@@ -44,14 +44,25 @@ struct KeptColumns {
 // float of each of the columns from begin to end of `values`.
 void keep_columns(const Front&, int begin, int end, float* to);
 
+// Up to two right-hand sides are solved for at once: the columns, read once, are what takes time. Each has its own bits, alone or not.
+constexpr int most_sides = 2;
+template <int N>
+struct Sides {
+  double* of[N];
+};
+
 // L x = b for own unknowns x, in place, panel by panel; w (rows()) holds what the rows lose to those before, zero at first. The panel's own
 // unknowns, then from what rows from row to row_end, after the panel, lose to them. Rows in whole lanes.
-void forward_panel(const KeptColumns&, int begin, int end, double* x, double* w);
-void forward_rows(const KeptColumns&, int begin, int end, const double* x, int row, int row_end, double* w);
+template <int N>
+void forward_panel(const KeptColumns&, int begin, int end, Sides<N> x, Sides<N> w);
+template <int N>
+void forward_rows(const KeptColumns&, int begin, int end, Sides<N> x, int row, int row_end, Sides<N> w);
 // L^T x = b likewise, from the last panel to the first; w holds the unknowns of all rows after the panel, zero where a row has none. What the three
 // unknowns from `column` on lose to them is taken from x; then the panel's own, into x and w.
-void backward_columns(const KeptColumns&, int column, int panel_end, double* x, const double* w);
-void backward_panel(const KeptColumns&, int begin, int end, double* x, double* w);
+template <int N>
+void backward_columns(const KeptColumns&, int column, int panel_end, Sides<N> x, Sides<N> w);
+template <int N>
+void backward_panel(const KeptColumns&, int begin, int end, Sides<N> x, Sides<N> w);
 
 // to += from, n numbers.
 void add_rows(double* to, const double* from, int n);

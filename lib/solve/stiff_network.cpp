@@ -73,7 +73,7 @@ bool is_stiff(const PairSystem& system, const Pair& p, double squeeze) {
 
 struct StiffNetwork::Data {
   BlockCholesky factor;
-  std::vector<double> x;  // right-hand side and solution, by place in the factor
+  std::vector<double> x;  // right-hand sides and solutions, by place in the factor
   // A_uw and A_ww^-1 of every particle, row by row; empty without rotation.
   std::vector<double> cross, spin;
   std::vector<char> held;
@@ -138,7 +138,7 @@ bool StiffNetwork::Data::factorize(const PairSystem& system) {
   const auto is_held = [&](std::size_t k) { return !held.empty() && held[k]; };
   cross.resize(system.rotation ? n * 9 : 0);
   spin.resize(cross.size());
-  x.resize(3 * n);
+  x.resize(most_sides * 3 * n);
   Scratch diagonal(9 * n), between(9 * pairs.size());
 #pragma omp parallel
   {
@@ -216,7 +216,8 @@ std::string StiffNetwork::factorize(const PairSystem& system) {
 }
 
 // b = r_u - A_uw A_ww^-1 r_w
-void StiffNetwork::eliminate(int begin, int end, const double* r) {
+void StiffNetwork::eliminate(int begin, int end, const double* r, int side) {
+  double* x = data_->x.data() + side * (data_->x.size() / most_sides);
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   using Vector = Eigen::Map<const Eigen::Vector3d>;
   const bool rotation = !data_->cross.empty();
@@ -224,20 +225,21 @@ void StiffNetwork::eliminate(int begin, int end, const double* r) {
     const double* own = r + static_cast<std::size_t>(k) * (rotation ? stride<6> : stride<3>);
     Eigen::Vector3d v = Vector(own);
     if (rotation) v -= Eigen::Map<const Matrix>(&data_->cross[9 * k]) * (Eigen::Map<const Matrix>(&data_->spin[9 * k]) * Vector(own + place<6>(3)));
-    Eigen::Map<Eigen::Vector3d>(&data_->x[3 * static_cast<std::size_t>(data_->factor.place()[k])]) = v;
+    Eigen::Map<Eigen::Vector3d>(x + 3 * static_cast<std::size_t>(data_->factor.place()[k])) = v;
   }
 }
 
-void StiffNetwork::solve() { data_->factor.solve(data_->x.data()); }
+void StiffNetwork::solve(int sides) { data_->factor.solve(data_->x.data(), sides); }
 
-double StiffNetwork::substitute(int begin, int end, const std::vector<char>& held, const double* r, double* z) const {
+double StiffNetwork::substitute(int begin, int end, const std::vector<char>& held, const double* r, double* z, int side) const {
+  const double* x = data_->x.data() + side * (data_->x.size() / most_sides);
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   using Vector = Eigen::Map<const Eigen::Vector3d>;
   const bool rotation = !data_->cross.empty();
   double product = 0;
   for (int k = begin; k < end; ++k) {
     const std::size_t own = static_cast<std::size_t>(k) * (rotation ? stride<6> : stride<3>);
-    const Eigen::Vector3d v = Vector(&data_->x[3 * static_cast<std::size_t>(data_->factor.place()[k])]);
+    const Eigen::Vector3d v = Vector(x + 3 * static_cast<std::size_t>(data_->factor.place()[k]));
     for (int d = 0; d < 3; ++d) z[own + d] = v[d];
     if (!held.empty() && held[k]) z[own + 2] = 0;
     product += Vector(r + own).dot(Vector(z + own));

@@ -32,10 +32,11 @@ class StiffNetwork {
   void forget();
 
   // z = M^-1 r over strided vectors (solve/pair_product.h), in three parts: the first and last over ranges of particles, the second
-  // by all threads of a parallel region together; rows of held velocities stay zero. The last returns its part of r . z.
-  void eliminate(int begin, int end, const double* r);
-  void solve();
-  double substitute(int begin, int end, const std::vector<char>& held, const double* r, double* z) const;
+  // by all threads of a parallel region together; rows of held velocities stay zero. The last returns its part of r . z. For two
+  // vectors in hardly more than the time of one: the first and last for each `side`, 0 and 1, the second for both.
+  void eliminate(int begin, int end, const double* r, int side = 0);
+  void solve(int sides = 1);
+  double substitute(int begin, int end, const std::vector<char>& held, const double* r, double* z, int side = 0) const;
 
  private:
   struct Data;

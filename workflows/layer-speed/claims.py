@@ -1,10 +1,11 @@
 """What a whole layer costs and how far it is off: layer.csv, and the claims on both."""
 import csv
 import os
+import re
 
 import numpy as np
 
-from run_errors import MEASURES, differences, state
+from run_errors import MEASURES, differences, mean_state, state
 from study import Study
 
 COMPARED = 0.3        # s: when the layers are held against one another
@@ -12,7 +13,8 @@ SECONDS = 20.0        # for a layer of 30 um
 study = Study()
 full = study.size == "full"
 layer = study.cases[0]
-references = sorted((c for c in study.cases if "-tolerance-" in c), key=lambda c: float(c.split("-tolerance-")[1]))
+packings = [c for c in study.cases if re.search(r"-s\d+$", c)]    # of the layer and of its converged run, by seed, beside the first
+references = sorted((c for c in study.cases if "-tolerance-" in c and c not in packings), key=lambda c: float(c.split("-tolerance-")[1]))
 finest = references[0]
 
 
@@ -30,7 +32,7 @@ def look(case):
 
 
 runs = {case: look(case) for case in study.cases}
-states = {case: state(study, case, COMPARED) for case in (layer, *references) if runs[case]["end"] >= COMPARED - 1e-6}
+states = {case: state(study, case, COMPARED) for case in (layer, *references, *packings) if runs[case]["end"] >= COMPARED - 1e-6}
 for case in references[1:] + [layer]:
     runs[case] |= differences(states[case], states[finest]) if case in states else {}
 columns = ["run", "particles", "threads", "seconds", "cpu_seconds", "steps", "outcome", "end", "solids", "smallest_gap_nm", *(key for key, *_ in MEASURES)]
@@ -42,10 +44,10 @@ with open(part, "w", newline="") as file:
 part.replace(study.results / "layer.csv")
 
 # ---- wall time. It counts on two cores, at the size that was asked for, where the run had both.
-alone = full and os.cpu_count() == 2 and all(runs[c]["threads"] in ("all", "2") for c in study.cases if c not in references)
+alone = full and os.cpu_count() == 2 and all(runs[c]["threads"] in ("all", "2") for c in study.cases if c not in (*references, *packings))
 where = "wall time of pigment-consolidate with 2 threads on 2 cores and nothing beside it; SIZE=full, without -j"
 RESTED = ("immobile", "first_critical_concentration")
-thin_layer, thinner, charged, uncharged = (runs[c] for c in study.cases if c != layer and c not in references)
+thin_layer, thinner, charged, uncharged = (runs[c] for c in study.cases if c != layer and c not in (*references, *packings))
 spent = lambda r: f"{r['seconds']:.1f} s ({r['cpu_seconds']:.1f} s of CPU time), {r['steps']} steps, {r['outcome']} at {r['end']:.3f} s"    # noqa: E731
 r = runs[layer]
 study.claim("3.4", f"A layer dries from 65 wt-% to rest within {SECONDS:g} s", "none", f"{r['particles']} particles: {spent(r)}", f"at most {SECONDS:g} s, at rest; {where}",
@@ -63,15 +65,22 @@ study.claim("4.4", "Uncharged particles never overlap on the way to 80 wt-%", "n
 
 # ---- error, and what chance makes of converged runs
 chance = {key: max((differences(states[a], states[b])[key] for i, a in enumerate(references) for b in references[:i]), default=np.inf) for key, *_ in MEASURES}
+# Packings that both the layer and its converged run reached the time with.
+pairs = [(one, other) for one, other in [(layer, finest)] + [(c, c.replace(layer, finest)) for c in packings if "-tolerance-" not in c] if one in states and other in states]
+each = [differences(states[one], states[other]) for one, other in pairs]
+of_means = differences(mean_state(states[one] for one, _ in pairs), mean_state(states[other] for _, other in pairs)) if pairs else {}
 for key, label, bound in MEASURES:
-    error = runs[layer].get(key)
+    error = of_means.get(key)
+    among = f"means over {len(pairs)} packings; each by itself {', '.join(f'{d[key]:.3g}' for d in each)}" if len(pairs) > 1 else "one packing"
     study.claim("accuracy", f"A whole layer is close enough to the converged run: {label}", "none",
-                f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s; converged runs differ by up to {chance[key]:.3g} from one another, which no error is told from",
+                f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s ({among}); converged runs of one packing differ by up to {chance[key]:.3g} from one another",
                 f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound),
                 why="" if full else f"a difference of any size grows, as paths are chaotic, and a piece of {runs[layer]['particles']} particles leaves more of it to chance than those of SIZE=full, which decides")
 
 figure, axis = study.figure("progress", f"Steps of whole layers against time; {runs[layer]['particles']} particles, those to 80 wt-% {charged['particles']}; with the time by the clock that each took", width=110)
 for case in study.cases:
+    if case in packings:
+        continue
     strategy, thickness, *changed = case.split("-", 2)
     what = changed[0] if changed else "as in the drying study"
     what = f"tolerance {what.removeprefix('tolerance-')}" if case in references else f"double layer of {what.removesuffix('nm')} nm" if what.endswith("nm") else \

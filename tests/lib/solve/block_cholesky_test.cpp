@@ -136,6 +136,25 @@ TEST(BlockCholesky, SameBytesAtAnyNumberOfThreads) {
 }
 
 // One pattern, another matrix; then one that has a negative direction, wherever it is, and one with a number that is none.
+TEST(BlockCholesky, SolvesForTwoRightHandSidesAsForEachAlone) {
+  for (const int edge : {2, 13}) {
+    const Matrix m = lattice(edge, 3);
+    BlockCholesky factor;
+    ASSERT_TRUE(factor.analyze(m.nodes, m.pairs));
+    ASSERT_TRUE(factor.factorize(by_place(factor, m.diagonal, 9), m.between));
+    std::vector<double> one = right_hand_side(m.nodes), other(one.rbegin(), one.rend()), both = one;
+    both.insert(both.end(), other.begin(), other.end());
+#pragma omp parallel
+    {
+      factor.solve(one.data());
+      factor.solve(other.data());
+      factor.solve(both.data(), 2);
+    }
+    EXPECT_TRUE(std::equal(one.begin(), one.end(), both.begin()));
+    EXPECT_TRUE(std::equal(other.begin(), other.end(), both.begin() + one.size()));
+  }
+}
+
 TEST(BlockCholesky, FactorisesAgainAndRefusesWhatIsNotPositiveDefinite) {
   Matrix m = lattice(10, 11);
   BlockCholesky factor;
