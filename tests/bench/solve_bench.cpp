@@ -188,14 +188,19 @@ Network network_of(const Case& c) {
     }
   return n;
 }
+// The diagonal by place in the factor's order.
+std::vector<double> analyzed(const Network& n, solve::BlockCholesky& factor) {
+  factor.analyze(static_cast<int>(n.diagonal.size() / 9), n.pairs);
+  std::vector<double> diagonal(n.diagonal.size());
+  for (std::size_t k = 0; k < factor.place().size(); ++k) std::copy_n(&n.diagonal[9 * k], 9, &diagonal[9 * static_cast<std::size_t>(factor.place()[k])]);
+  return diagonal;
+}
 void network_factor(benchmark::State& state) {
   const Case& c = resistance_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   omp_set_num_threads(static_cast<int>(state.range(2)));
   const Network n = network_of(c);
   solve::BlockCholesky factor;
-  factor.analyze(static_cast<int>(c.force.size()), n.pairs);
-  std::vector<double> diagonal(n.diagonal.size());
-  for (std::size_t k = 0; k < c.force.size(); ++k) std::copy_n(&n.diagonal[9 * k], 9, &diagonal[9 * static_cast<std::size_t>(factor.place()[k])]);
+  const std::vector<double> diagonal = analyzed(n, factor);
   for (auto _ : state)
     if (!factor.factorize(diagonal, n.between)) state.SkipWithError("not positive definite");
   state.counters["pairs"] = static_cast<double>(n.pairs.size());
@@ -207,9 +212,7 @@ void network_solve(benchmark::State& state) {
   omp_set_num_threads(static_cast<int>(state.range(2)));
   const Network n = network_of(c);
   solve::BlockCholesky factor;
-  factor.analyze(static_cast<int>(c.force.size()), n.pairs);
-  std::vector<double> diagonal(n.diagonal.size());
-  for (std::size_t k = 0; k < c.force.size(); ++k) std::copy_n(&n.diagonal[9 * k], 9, &diagonal[9 * static_cast<std::size_t>(factor.place()[k])]);
+  const std::vector<double> diagonal = analyzed(n, factor);
   if (!factor.factorize(diagonal, n.between)) state.SkipWithError("not positive definite");
   const std::vector<double> b(3 * c.force.size(), 1.0);
   std::vector<double> x;

@@ -16,6 +16,7 @@ layer = study.cases[0]
 packings = [c for c in study.cases if re.search(r"-s\d+$", c)]    # of the layer and of its converged run, by seed, beside the first
 references = sorted((c for c in study.cases if "-tolerance-" in c and c not in packings), key=lambda c: float(c.split("-tolerance-")[1]))
 finest = references[0]
+for_errors = (*references, *packings)    # whose times do not count
 
 
 def text(value):
@@ -32,7 +33,7 @@ def look(case):
 
 
 runs = {case: look(case) for case in study.cases}
-states = {case: state(study, case, COMPARED) for case in (layer, *references, *packings) if runs[case]["end"] >= COMPARED - 1e-6}
+states = {case: state(study, case, COMPARED) for case in (layer, *for_errors) if runs[case]["end"] >= COMPARED - 1e-6}
 for case in references[1:] + [layer]:
     runs[case] |= differences(states[case], states[finest]) if case in states else {}
 columns = ["run", "particles", "threads", "seconds", "cpu_seconds", "steps", "outcome", "end", "solids", "smallest_gap_nm", *(key for key, *_ in MEASURES)]
@@ -44,10 +45,10 @@ with open(part, "w", newline="") as file:
 part.replace(study.results / "layer.csv")
 
 # ---- wall time. It counts on two cores, at the size that was asked for, where the run had both.
-alone = full and os.cpu_count() == 2 and all(runs[c]["threads"] in ("all", "2") for c in study.cases if c not in (*references, *packings))
+alone = full and os.cpu_count() == 2 and all(runs[c]["threads"] in ("all", "2") for c in study.cases if c not in for_errors)
 where = "wall time of pigment-consolidate with 2 threads on 2 cores and nothing beside it; SIZE=full, without -j"
 RESTED = ("immobile", "first_critical_concentration")
-thin_layer, thinner, charged, uncharged = (runs[c] for c in study.cases if c != layer and c not in (*references, *packings))
+thin_layer, thinner, charged, uncharged = (runs[c] for c in study.cases if c != layer and c not in for_errors)
 spent = lambda r: f"{r['seconds']:.1f} s ({r['cpu_seconds']:.1f} s of CPU time), {r['steps']} steps, {r['outcome']} at {r['end']:.3f} s"    # noqa: E731
 r = runs[layer]
 study.claim("3.4", f"A layer dries from 65 wt-% to rest within {SECONDS:g} s", "none", f"{r['particles']} particles: {spent(r)}", f"at most {SECONDS:g} s, at rest; {where}",
