@@ -20,25 +20,26 @@ constexpr double weak_hold = 4;  // pN
 // Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess.
 constexpr double linearisation_share = 0.01, linear_range = 0.3;
 
-// Splitting alone: with a gap further off than by its own length those within a tenth of it are put right before the others. And a bond
-// opens slowly: at 1.4 times its length its stiffness is a twentieth, and what it held would be thrown about. Up to where it
-// was at the beginning of the step it opens at once.
-constexpr double focus_share = 0.1;
+// Splitting alone. A bond half as long again has lost its Born wall: what its attraction then pulls back would go right through the other
+// particle, be let out by the next pass, and so on. So the linear law of one that opens, and was no longer than `bond`, is as stiff as that
+// from where the step began.
+constexpr double bond = 1e-3;  // um
+// Where a gap began further than this, its last motion foretells where it comes to, if not as near as it would if it were alone: clusters
+// hold most particles a few nanometres off each other. Nearer ones fall together faster than they came.
+constexpr double falling = 6e-4;       // um
 constexpr double furthest_turn = 0.9;  // cosine
-constexpr double bond_reach = 1e-3, bond_rise = 1.15;  // um
 
-// Takes down that a gap came out off its guess; returns by which share of the guess.
-double miss(GapCheck& check, double gap, double guess, double scale) {
+// Takes down that a gap came out off its guess.
+void miss(GapCheck& check, double gap, double guess, double scale) {
   const double missed = (gap - guess) / (std::max(gap, 0.0) + scale), off = std::abs(gap - guess) / guess, left = 0.5 * off * missed;
   check.miss += missed * missed;
   check.linearisation += left * left;
   check.farthest = std::max(check.farthest, off);
-  return off;
 }
 
 }  // namespace
 
-void StepAssembly::turn_axes(const std::vector<double>& u) {
+void StepAssembly::foretell(const std::vector<double>& u) {
   if (!split_) return;
   const std::size_t D = interactions_.rotation() ? 6 : 3;
 #pragma omp parallel for schedule(static)
@@ -50,6 +51,9 @@ void StepAssembly::turn_axes(const std::vector<double>& u) {
     for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
     // The direction alone is taken: spheres as far apart as they are, about which half-way axes leave no turn (refine). A velocity that
     // would carry one round the other is no guess.
+    const double foretold = d.norm() - contact;
+    if (gap_begin_[p] > falling && guess_[p] < gap_begin_[p])
+      guess_[p] = std::max(guess_[p], std::clamp(foretold, largest_fall * gap_begin_[p], gap_begin_[p]));
     d *= separation_[p].norm() / d.norm();
     if (d.dot(separation_[p]) > furthest_turn * contact * contact) normal_[p] = (separation_[p] + d).normalized();
   }
@@ -61,21 +65,6 @@ std::vector<double> StepAssembly::in_fours(const std::vector<double>& u) const {
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < radius_.size(); ++k) std::copy_n(&u[k * D], 3, &four[4 * k]);
   return four;
-}
-
-double StepAssembly::farthest_off(const std::vector<double>& velocity) const {
-  double worst = 0;
-#pragma omp parallel for schedule(static) reduction(max : worst)
-  for (int c = 0; c < topology_.chunks().count(); ++c) {
-    double gap[law_pairs], along[law_pairs];
-    for (std::size_t first = topology_.pair_begin(c); first < topology_.pair_begin(c + 1); first += law_pairs) {
-      const std::size_t count = std::min(law_pairs, topology_.pair_begin(c + 1) - first);
-      move_pairs(velocity, first, count, gap, along);
-      for (std::size_t p = first; p < first + count; ++p)
-        if (gap_begin_[p] > 0) worst = std::max(worst, std::abs(gap[p - first] - guess_[p]) / guess_[p]);
-    }
-  }
-  return worst;
 }
 
 void StepAssembly::move_pairs(const std::vector<double>& velocity, std::size_t first, std::size_t count, double* gap, double* along) const {
@@ -105,9 +94,11 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     }
     if (interactions_.pressure_limited()) pressure = surface_pressure(u);
   }
-  // One gap that came out far from its guess throws many others about: it alone is put right first, with those that are off nearly as far.
   const std::vector<double> velocity = path_ ? std::vector<double>() : in_fours(u);
-  const double worst = split_ ? farthest_off(velocity) : 0, focus = worst > 1 ? focus_share * worst : 0;
+  // Axes follow the mean of the passes: a particle about to tear swings round its bonds, which lengthens them, which throws it back by
+  // as much the next time.
+  if (split_ && passes_ == 0) swing_ = u;
+  for (std::size_t q = 0; split_ && q < u.size(); ++q) swing_[q] = 0.5 * (swing_[q] + u[q]);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
@@ -125,14 +116,14 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         move_pairs(velocity, p, count, gaps, motion);
       }
       const double gap = gaps[at_hand], along = motion[at_hand];
-      if (newton_ && focus == 0) turn_[p] = gap - gap_from(p) - along;
-      if (split_ && focus == 0 && std::abs(turn_[p]) > 0.01 * scale) {
+      if (newton_) turn_[p] = gap - gap_from(p) - along;
+      if (split_ && std::abs(turn_[p]) > 0.01 * scale) {
         const auto [i, j] = pairs_[p];
         Vec3 d = separation_[p];
-        for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
+        for (int q = 0; q < 3; ++q) d[q] += dt_ * (swing_[j * D + q] - swing_[i * D + q]);
         // The axis half-way: along it the gap changes by what the spheres move, but for a term of fourth order.
         normal_[p] = (separation_[p] + d).normalized();
-        turn_[p] = gap - gap_from(p) - normal_[p].dot(d - separation_[p]);
+        turn_[p] = d.norm() - radius_[i] - radius_[j] - gap_from(p) - normal_[p].dot(d - separation_[p]);
       }
       if (gap < check.smallest_gap) {
         check.smallest_gap = gap;
@@ -143,13 +134,11 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
       if (off_guess(gap, guess, two_step_ || split_ || guess != gap_begin_[p])) {
-        const double off = miss(check, gap, guess, scale);
+        miss(check, gap, guess, scale);
         check.refine = true;
-        if (off < focus) continue;
         const StepForce force = pair_step_force(c, p);
-        double next = next_gap(gap, guess, force.tangent(gap), force);
-        if (split_ && guess < bond_reach) next = std::min(next, std::max(bond_rise * guess, gap_begin_[p]));
-        guess = bracket_[c][p].take(next, guess);
+        guess = bracket_[c][p].take(next_gap(gap, guess, force.tangent(gap), force), guess);
+        if (split_) least_stiffness_[p] = gap_begin_[p] < bond && guess > 1.01 * gap_begin_[p] ? force.mean_stiffness(gap_begin_[p], guess) : 0;
       }
     }
     const bool pairs_refine = std::exchange(check.refine, false);

@@ -91,7 +91,8 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     }
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
-    const double k = implicit_ ? std::max(stiffness[at_hand], 0.0) : 0, guess = guess_[p], turn = newton_ ? turn_[p] : 0, from = gap_from(p);
+    const double tangent = implicit_ ? std::max(stiffness[at_hand], 0.0) : 0, k = split_ ? std::max(tangent, least_stiffness_[p]) : tangent;
+    const double guess = guess_[p], turn = newton_ ? turn_[p] : 0, from = gap_from(p);
     double f = force[at_hand] + (path_ && !path_force_ ? 0 : k * (guess - from - turn));
     const std::int32_t target = topology_.target(p);
     const double at = resistance_gap_[p];
@@ -119,8 +120,8 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
         rhs[static_cast<std::size_t>(i) * D + d] -= f * n[d];
         rhs[static_cast<std::size_t>(target) * D + d] += f * n[d];
       }
-    const double total = mu * viscous + dt_ * k;
-    if (split_ || two_step_) memory_[p] = total > 0 ? mu * viscous / total : 1;
+    const double total = mu * viscous + dt_ * k, relaxing = mu * viscous + dt_ * tangent;
+    if (split_ || two_step_) memory_[p] = relaxing > 0 ? mu * viscous / relaxing : 1;
     if (s.shear > 0) {
       const auto o = resistance::operator_scalars(s, radius_[i], radius_[j]);
       full.push_back({i, j, target, {n[0], n[1], n[2]}, radius_[i] + 0.5 * at, radius_[j] + 0.5 * at,
@@ -136,6 +137,7 @@ StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
   StepForce f{laws_, g, gap_from(p), squeeze_from(p)};
   f.turn = turn_[p];
   f.split = split_;
+  if (split_) f.least_stiffness = least_stiffness_[p];
   if (split_) f.standing = standing_force_[chunk][p - topology_.pair_begin(chunk)];
   if (!(f.squeeze_from > 0)) {
     f.squeeze_from = g.gap;

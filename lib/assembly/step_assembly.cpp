@@ -183,6 +183,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     surface_ = std::move(at_surface);
   }
   if (split_ || two_step_) memory_.resize(pairs_.size());
+  least_stiffness_.assign(split_ ? pairs_.size() : 0, 0.0);
   if (!split_) return;
   standing_force_.resize(chunks);
 #pragma omp parallel for schedule(static)

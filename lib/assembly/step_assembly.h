@@ -85,8 +85,9 @@ class StepAssembly {
   // empty; protrusion: guess of each particle's protrusion through the free surface at the end of the step, file order.
   void begin(const Vec3Array& position, const Film&, const Liquid&, double dt, Treatment, const Vec3Array& force,
              const std::vector<double>& protrusion, const TwoStep* = nullptr);
-  // Splitting alone: axes half-way along the motion that these velocities (engine order) foretell.
-  void turn_axes(const std::vector<double>& velocity);
+  // Splitting alone: axes half-way along the motion that these velocities (engine order) foretell, and the gaps of pairs that are not
+  // about to bond.
+  void foretell(const std::vector<double>& velocity);
   // Fills the system for the current guesses.
   void build(solve::PairSystem&) const;
   // Fills the system with R at the beginning of the step alone: no stiffness; its right-hand side means nothing.
@@ -138,7 +139,6 @@ class StepAssembly {
   StepForce pair_step_force(int chunk, std::size_t p) const;
   StepForce substrate_step_force(int k) const;
   double gap_alone(StepForce, const forces::PairGeometry&) const;
-  double farthest_off(const std::vector<double>& velocity) const;  // largest |gap - guess|/guess
   // Gaps of some pairs at the step's end, and how far they moved apart along their normals.
   void move_pairs(const std::vector<double>& velocity, std::size_t first, std::size_t count, double* gap, double* along) const;
   std::vector<double> in_fours(const std::vector<double>& solution) const;  // velocities, four numbers a particle (pair_separation.h)
@@ -180,6 +180,8 @@ class StepAssembly {
   bool split_ = false;
   std::vector<std::vector<double>> standing_force_;  // of concave laws at the beginning, where split: one array a chunk
   std::vector<double> substrate_standing_force_;
+  // Splitting alone, one a pair: the linear law is no softer than this, pN/um; 0 but for bonds that came out opened (refine).
+  std::vector<double> least_stiffness_;
   mutable std::vector<double> memory_;  // resistance over resistance and stiffness times the step, one a pair
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
   double prepared_temperature_ = -1, colloidal_reach_ = 0;  // reach: gap beyond which no law acts, um
@@ -206,6 +208,7 @@ class StepAssembly {
   // What each pair's gap gains as its axis turns in the step, (transverse motion)^2/2r, um: no part of the linear system, it is taken from
   // the last solution. Left out, a bond that turns by 5 degrees would be held 1 nm from where its force is right.
   std::vector<double> turn_;
+  std::vector<double> swing_;  // splitting alone: velocities that axes turn by, the running mean of the solutions
   // What the averages along the step start from.
   std::vector<Vec3> separation_;                             // one a pair, from i to j
   std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;

@@ -19,6 +19,7 @@ struct StepForce {
   double turn = 0;                // um, the part of the change of the gap that the axis's turning makes: it meets no linear resistance
   double standing = 0;            // pN, in place of the concave laws
   bool split = false;             // whether these are left out
+  double least_stiffness = 0;     // pN/um, of the linear law where the laws themselves are softer
   double share = 1;               // by which the laws' forces are multiplied: those of a curved wall over the plane's
 
   double operator()(double gap) const { return colloidal(gap).force + singular * std::log(squeeze_from / gap) - linear * (gap - gap_begin - turn); }
@@ -26,9 +27,11 @@ struct StepForce {
   double tangent(double gap) const {
     const double guess = geometry.gap;
     const forces::PairTerm t = colloidal(guess);
-    return t.force + std::max(t.stiffness, 0.0) * (guess - gap) + singular * (std::log(squeeze_from / guess) + (guess - gap) / guess) -
+    return t.force + std::max(t.stiffness, least_stiffness) * (guess - gap) + singular * (std::log(squeeze_from / guess) + (guess - gap) / guess) -
            linear * (gap - gap_begin - turn);
   }
+  // Mean stiffness of the laws between two gaps, pN/um.
+  double mean_stiffness(double low, double high) const { return (colloidal(low).force - colloidal(high).force) / (high - low); }
 
  private:
   forces::PairTerm colloidal(double gap) const {

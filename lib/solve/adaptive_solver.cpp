@@ -10,7 +10,7 @@ namespace {
 constexpr int least_patience = 60, particles_per_iteration = 80;
 // A network fits no longer where more than `most_changed` of its stiff pairs are stiffer or softer by `times_changed` than it has them, each
 // of which costs an iteration or so, or where a solve takes more than `stale` iterations.
-constexpr int most_changed = 10, stale = 25;
+constexpr int most_changed = 3, stale = 25;
 constexpr double times_changed = 3;
 // A pair's part in an iteration of block Jacobi takes the time of so many of the factor's multiply-adds, its order and the solves with it
 // included: in a jam of 7,070 particles with 91,000 pairs 0.4 ms beside 45 ms for 1.7e9 of them, in an uncharged layer of 4,700 with

@@ -6,6 +6,12 @@
 
 namespace pigment::stepping {
 
+namespace {
+// A particle about to tear from its bonds is held by next to nothing, and what a solve leaves undone throws it about: from 1,555 passes of
+// Newton's method to 1,080 in an uncharged layer of 4,700 particles.
+constexpr double tighter_among_bonds = 0.03;
+}  // namespace
+
 double gap_scale(const assembly::Interactions& interactions, const Liquid& liquid) {
   for (const auto& [name, law] : interactions.colloidal)
     if (name == "electrostatic") return law->prepare(liquid)->cutoff_gap() / 20;  // its cutoff is 20 Debye lengths
@@ -18,8 +24,8 @@ double brownian_step(const Particles& particles, const Liquid& liquid, double sc
   return 9 * scale * scale / diffusivity;
 }
 
-double solver_tolerance(const SteppingParameters& p, bool noisy) {
-  return p.solver_tolerance.value_or(noisy ? 1e-3 : std::clamp(0.1 * p.tolerance, 1e-8, 1e-3));
+double solver_tolerance(const SteppingParameters& p, bool noisy, bool bonds) {
+  return p.solver_tolerance.value_or((bonds ? tighter_among_bonds : 1) * (noisy ? 1e-3 : std::clamp(0.1 * p.tolerance, 1e-8, 1e-3)));
 }
 
 double thermal_step(const Particles& particles, const Liquid& liquid, double scale, bool lubrication) {

@@ -24,8 +24,8 @@ double brownian_step(const Particles&, const Liquid&, double gap_scale);
 // tests/physics/boltzmann_separation_test.cpp holds. Without lubrication: a component of the smallest particle moves by half a Debye length.
 double thermal_step(const Particles&, const Liquid&, double gap_scale, bool lubrication);
 // Relative residual of each solve: the scene's, or a tenth of the step tolerance. One step's noise moves particles by
-// nanometres either way: a thousandth of it is far below its own weak error.
-double solver_tolerance(const SteppingParameters&, bool noisy);
+// nanometres either way: a thousandth of it is far below its own weak error. bonds: of a step by convex splitting.
+double solver_tolerance(const SteppingParameters&, bool noisy, bool bonds);
 // Next step from the last one's error in units of the tolerance: local error of a first-order method goes with dt^2.
 double next_step(double step, double error);
 

@@ -62,6 +62,19 @@ TEST(NextGap, SettlesInAWell) {
       }
 }
 
+// A double layer of 1 nm, its attraction and a Born wall, um and pN: the most that keeps a pair apart is felt at 0.6 nm, and what is
+// pressed nearer comes to rest on the wall. From before the barrier it takes two guesses to get there, not one for every gap on the way.
+TEST(NextGap, FallsOverABarrierToTheWall) {
+  const auto force = [](double h) { return 400 * std::exp(-h / 1e-3) - 80 * std::pow(5e-4 / h, 2) + 20 * std::pow(3e-4 / h, 9); };
+  ASSERT_LT(force(4e-4), force(6e-4));
+  const double load = force(6e-4) + 5;
+  double wall = 4e-4;
+  while (force(wall) < load) wall *= 0.9999;
+  for (double came_out : {4.4e-4, 4e-4, 3e-4}) EXPECT_NEAR(next_gap(came_out, 7e-4, load, force), wall, 0.01 * wall) << came_out;
+  // One that is let go comes out as far as it says.
+  EXPECT_EQ(next_gap(9e-4, 7e-4, force(9e-4), force), 9e-4);
+}
+
 TEST(GapBracket, HalvesWhatLeavesIt) {
   GapBracket bracket;
   EXPECT_EQ(bracket.take(2, 1), 2);              // the solution lies above 1
