@@ -20,11 +20,7 @@ constexpr double weak_hold = 4;  // pN
 // Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess.
 constexpr double linearisation_share = 0.01, linear_range = 0.3;
 
-// Splitting alone. A bond half as long again has lost its Born wall: what its attraction then pulls back would go right through the other
-// particle, be let out by the next pass, and so on. So the linear law of one that opens, and was no longer than `bond`, is as stiff as that
-// from where the step began.
-constexpr double bond = 1e-3;  // um
-// Where a gap began further than this, its last motion foretells where it comes to, if not as near as it would if it were alone: clusters
+// Splitting alone: where a gap began further than this, its last motion foretells where it comes to, if not as near as it would if it were alone: clusters
 // hold most particles a few nanometres off each other. Nearer ones fall together faster than they came.
 constexpr double falling = 6e-4;       // um
 constexpr double furthest_turn = 0.9;  // cosine
@@ -138,7 +134,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         check.refine = true;
         const StepForce force = pair_step_force(c, p);
         guess = bracket_[c][p].take(next_gap(gap, guess, force.tangent(gap), force), guess);
-        if (split_) least_stiffness_[p] = gap_begin_[p] < bond && guess > 1.01 * gap_begin_[p] ? force.mean_stiffness(gap_begin_[p], guess) : 0;
+        least_stiffness_[p] = wall_stiffness(c, p);
       }
     }
     const bool pairs_refine = std::exchange(check.refine, false);

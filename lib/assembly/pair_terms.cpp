@@ -22,6 +22,7 @@ void StepAssembly::begin_two_step(int chunk, std::size_t first, std::size_t coun
       resistance_gap_[p] = std::max(foretold[p - first], largest_fall * gap);
     }
     squeeze_from_[p] = resistance_gap_[p];
+    least_stiffness_[p] = wall_stiffness(chunk, p);
     if (!interactions_.lubrication()) continue;
     set_scalars(chunk, p, resistance::pair_term(interactions_.hydrodynamics, radius_[i], radius_[j], resistance_gap_[p]));
     if (squeeze_[p] > 0) squeeze_from_[p] = gap > 0 && gap_before > 0 ? gap * std::exp(two_step.share * std::log(gap / gap_before)) : 0;
@@ -91,7 +92,7 @@ void StepAssembly::pair_terms(int chunk, solve::PairSystem& system, double* rhs)
     }
     const auto [i, j] = pairs_[p];
     const Vec3& n = normal_[p];
-    const double tangent = implicit_ ? std::max(stiffness[at_hand], 0.0) : 0, k = split_ ? std::max(tangent, least_stiffness_[p]) : tangent;
+    const double tangent = implicit_ ? std::max(stiffness[at_hand], 0.0) : 0, k = newton_ ? std::max(tangent, least_stiffness_[p]) : tangent;
     const double guess = guess_[p], turn = newton_ ? turn_[p] : 0, from = gap_from(p);
     double f = force[at_hand] + (path_ && !path_force_ ? 0 : k * (guess - from - turn));
     const std::int32_t target = topology_.target(p);
@@ -137,7 +138,7 @@ StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
   StepForce f{laws_, g, gap_from(p), squeeze_from(p)};
   f.turn = turn_[p];
   f.split = split_;
-  if (split_) f.least_stiffness = least_stiffness_[p];
+  if (newton_) f.least_stiffness = least_stiffness_[p];
   if (split_) f.standing = standing_force_[chunk][p - topology_.pair_begin(chunk)];
   if (!(f.squeeze_from > 0)) {
     f.squeeze_from = g.gap;
@@ -147,6 +148,15 @@ StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
     f.linear = liquid_.viscosity * squeeze_[p] / dt_ - singular / resistance_gap_[p];
   }
   return f;
+}
+
+// A gap in contact that is guessed half as long again has lost its Born wall: what presses it together would then go right through the other
+// particle, be let out by the next pass, and so on. So the linear law of one that opens, and was no longer than `contact`, is as stiff as
+// that from where the step began.
+double StepAssembly::wall_stiffness(int chunk, std::size_t p) const {
+  constexpr double contact = 1e-3, opens = 1.01;  // the first: um
+  const double begin = gap_begin_[p], guess = guess_[p];
+  return begin > 0 && begin < contact && guess > opens * begin ? std::max(pair_step_force(chunk, p).mean_stiffness(begin, guess), 0.0) : 0;
 }
 
 // Where the pair would come to if it were alone.

@@ -85,6 +85,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
   }
   for (auto& brackets : bracket_) brackets.clear();
   turn_.assign(newton_ ? pairs_.size() : 0, 0.0);
+  least_stiffness_.assign(turn_.size(), 0.0);
   const std::size_t n = radius_.size();
   external_force_.resize(force.empty() ? 0 : n);
   const int chunks = topology_.chunks().count();
@@ -183,7 +184,6 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     surface_ = std::move(at_surface);
   }
   if (split_ || two_step_) memory_.resize(pairs_.size());
-  least_stiffness_.assign(split_ ? pairs_.size() : 0, 0.0);
   if (!split_) return;
   standing_force_.resize(chunks);
 #pragma omp parallel for schedule(static)

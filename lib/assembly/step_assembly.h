@@ -138,6 +138,7 @@ class StepAssembly {
   void set_scalars(int chunk, std::size_t p, const resistance::PairScalars&);
   StepForce pair_step_force(int chunk, std::size_t p) const;
   StepForce substrate_step_force(int k) const;
+  double wall_stiffness(int chunk, std::size_t p) const;  // pN/um, that the linear law has at least
   double gap_alone(StepForce, const forces::PairGeometry&) const;
   // Gaps of some pairs at the step's end, and how far they moved apart along their normals.
   void move_pairs(const std::vector<double>& velocity, std::size_t first, std::size_t count, double* gap, double* along) const;
@@ -180,7 +181,7 @@ class StepAssembly {
   bool split_ = false;
   std::vector<std::vector<double>> standing_force_;  // of concave laws at the beginning, where split: one array a chunk
   std::vector<double> substrate_standing_force_;
-  // Splitting alone, one a pair: the linear law is no softer than this, pN/um; 0 but for bonds that came out opened (refine).
+  // Newton's method, one a pair: the linear law is no softer than this, pN/um; 0 but for contacts that open.
   std::vector<double> least_stiffness_;
   mutable std::vector<double> memory_;  // resistance over resistance and stiffness times the step, one a pair
   std::vector<std::unique_ptr<forces::PreparedPairLaw>> laws_;
