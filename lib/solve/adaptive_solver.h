@@ -35,7 +35,7 @@ class AdaptiveSolver {
   SolverMemory memory() const { return {stiff_ && network_.ready(), network_cost_}; }
 
  private:
-  void make(const PairSystem&);
+  void make(const PairSystem&, double tolerance);
 
   StiffNetwork network_;
   bool stiff_ = false;

@@ -16,9 +16,6 @@ namespace {
 
 constexpr int at(int row, int column) { return row * (row + 1) / 2 + column; }  // of a diagonal block
 
-// A pair is stiff where its squeeze is so many times the lesser drag. In an uncharged layer of 4,700 particles a thousandth was
-// reached in 9 to 13 iterations with anything from 2 to 100, in a jammed charged one in 12 with 2, 15 with 10, 48 with 100, of ever fewer pairs.
-constexpr double stiff_over_drag = 10;
 // A factor made anew keeps the pairs of the one before, and with them its order and its pattern, while no more than so many others have
 // become stiff. Each costs an iteration or so.
 constexpr int most_missing = 10;
@@ -65,7 +62,7 @@ struct StiffPair {
 };
 
 template <typename Pair>
-bool is_stiff(const PairSystem& system, const Pair& p, double squeeze) {
+bool is_stiff(const PairSystem& system, const Pair& p, double squeeze, double stiff_over_drag) {
   return squeeze > stiff_over_drag * std::min(system.particle[p.i].across, system.particle[p.j].across);
 }
 
@@ -73,6 +70,7 @@ bool is_stiff(const PairSystem& system, const Pair& p, double squeeze) {
 
 struct StiffNetwork::Data {
   BlockCholesky factor;
+  double stiff_over_drag;
   std::vector<double> x;  // right-hand sides and solutions, by place in the factor
   // A_uw and A_ww^-1 of every particle, row by row; empty without rotation.
   std::vector<double> cross, spin;
@@ -94,7 +92,7 @@ bool StiffNetwork::Data::choose_pairs(const PairSystem& system) {
     const auto take = [&](const auto& some, std::vector<KnownPair>& here) {
       here.reserve(some.size());
       for (const auto& p : some) {
-        const bool stiff = is_stiff(system, p, p.squeeze);
+        const bool stiff = is_stiff(system, p, p.squeeze, stiff_over_drag);
         here.push_back({p.i, p.j, stiff ? static_cast<std::int32_t>(pairs.size()) : -1, 0});
         if (stiff) pairs.push_back({p.i, p.j, {}, 0});
       }
@@ -192,18 +190,21 @@ void StiffNetwork::forget() { data_.reset(); }
 int StiffNetwork::changed(const PairSystem& system, double times) const {
   int count = count_pairs(system, data_->known, [&](const auto& p, const KnownPair* known) {
     const double now = p.squeeze, then = known ? known->squeeze : 0;
-    return is_stiff(system, p, std::max(now, then)) && (now > times * then || then > times * now);
+    return is_stiff(system, p, std::max(now, then), data_->stiff_over_drag) && (now > times * then || then > times * now);
   });
   for (std::size_t k = 0; k < system.held.size(); ++k) count += system.held[k] != data_->held[k];
   return count;
 }
 
-std::string StiffNetwork::factorize(const PairSystem& system) {
-  const auto missing = [&](const auto& p, const KnownPair* known) { return (!known || known->stiff < 0) && is_stiff(system, p, p.squeeze); };
+std::string StiffNetwork::factorize(const PairSystem& system, double stiff_over_drag) {
+  const auto missing = [&](const auto& p, const KnownPair* known) {
+    return (!known || known->stiff < 0) && is_stiff(system, p, p.squeeze, stiff_over_drag);
+  };
   const bool anew = !ready() || count_pairs(system, data_->known, missing) > most_missing;
   std::string refusal;
   try {
     if (anew) data_ = std::make_unique<Data>();
+    data_->stiff_over_drag = stiff_over_drag;
     if (anew && !data_->choose_pairs(system))
       refusal = "out of memory";
     else if (data_->know_pairs(system); !data_->factorize(system))

@@ -21,8 +21,8 @@ class StiffNetwork {
   ~StiffNetwork();
   StiffNetwork(StiffNetwork&&) noexcept;
   StiffNetwork& operator=(StiffNetwork&&) noexcept;
-  // Empty on success, else why not (not positive definite, out of memory).
-  std::string factorize(const PairSystem&);
+  // A pair is stiff where its squeeze is so many times the lesser drag. Empty on success, else why not (not positive definite, out of memory).
+  std::string factorize(const PairSystem&, double stiff_over_drag);
   bool ready() const;
   // Of factorize, in multiply-adds, about; of a network that is ready.
   double work() const;

@@ -135,7 +135,7 @@ TEST(AdaptiveSolver, NetworkKnowsItsPairsWhenOthersComeAndGo) {
   Chain chain;
   make(chain, 2000, false, 1e-5, 4);
   StiffNetwork network;
-  ASSERT_EQ(network.factorize(chain.system), "");
+  ASSERT_EQ(network.factorize(chain.system, 10), "");
   EXPECT_EQ(network.changed(chain.system, 3), 0);
   Chain fewer;
   make(fewer, 2000, false, 1e-5, 4);
@@ -147,14 +147,14 @@ TEST(AdaptiveSolver, NetworkKnowsItsPairsWhenOthersComeAndGo) {
   std::swap(fewer.system.squeeze[0], without);
   // Two stiff pairs are gone, which no solve sees but by its right-hand side; all others are as they were.
   EXPECT_EQ(network.changed(fewer.system, 3), 0);
-  ASSERT_EQ(network.factorize(fewer.system), "");
+  ASSERT_EQ(network.factorize(fewer.system, 10), "");
   apply(fewer.system, fewer.exact, fewer.system.right_hand_side);
   std::vector<double> x;
   EXPECT_LT(conjugate_gradients(fewer.system, x, options, &network).iterations, 10);  // the network is the whole matrix
   EXPECT_LT(error(x, fewer.exact), 1e-5);
   // Back again they are two that the factor lacks.
   EXPECT_EQ(network.changed(chain.system, 3), 2);
-  ASSERT_EQ(network.factorize(chain.system), "");
+  ASSERT_EQ(network.factorize(chain.system, 10), "");
   x.clear();
   EXPECT_LT(conjugate_gradients(chain.system, x, options, &network).iterations, 40);
   EXPECT_LT(error(x, chain.exact), 1e-5);

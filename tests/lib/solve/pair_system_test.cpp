@@ -212,7 +212,7 @@ TEST(ConjugateGradients, MovesABondedClusterAsAWhole) {
   for (int k = 0; k < n; ++k) EXPECT_NEAR(x[3 * k], 1, 0.02) << k;
   // All its pairs are stiff, and there is nothing else: the network is the matrix.
   StiffNetwork network;
-  ASSERT_EQ(network.factorize(system), "");
+  ASSERT_EQ(network.factorize(system, 10), "");
   x.clear();
   const SolveReport report = conjugate_gradients(system, x, {1e-6, 5000}, &network);
   EXPECT_TRUE(report.converged);
@@ -244,7 +244,7 @@ TEST(ConjugateGradients, HeldParticlesKeepTheirVelocityAndTheRestBalances) {
     const VectorXd exact = a.ldlt().solve(b);
     StiffNetwork network;
     if (with_network) {
-      ASSERT_EQ(network.factorize(e.system), "");
+      ASSERT_EQ(network.factorize(e.system, 10), "");
     }
     std::vector<double> x;
     const SolveReport report = conjugate_gradients(e.system, x, {1e-12, 5000}, with_network ? &network : nullptr);
