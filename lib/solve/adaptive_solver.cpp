@@ -22,8 +22,8 @@ constexpr double network_tolerance = 10;
 
 // The looser the solve, the fewer pairs a network needs, and it is its factor that takes time. In a jam of 7,070 charged particles, solved to
 // 1e-3: 1.5 iterations and 37 ms a factor with the pairs that are 10 times as stiff as their drag, 5.5 and 13 ms with those of 1000 times.
-// In an uncharged layer, to 3e-5, 1000 times was a fifth dearer than 10.
-double stiff_over_drag(double tolerance) { return std::clamp(1e6 * tolerance, 10.0, 1000.0); }
+// In an uncharged layer, to 3e-5, 300 and 1000 times took a fifth more passes of Newton's method than 10 (four runs each).
+double stiff_over_drag(double tolerance) { return std::clamp(1e9 * tolerance * tolerance, 10.0, 1000.0); }
 
 }  // namespace
 
