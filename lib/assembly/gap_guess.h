@@ -8,7 +8,9 @@ namespace pigment::assembly {
 
 // A guess falls and rises at most by these factors at a time, so that a gap that came out negative is approached from above and
 // that one linearised deep inside a steep barrier is not thrown out too far. It falls further where the force asks for it (next_gap).
-inline constexpr double largest_fall = 0.2, largest_rise = 3, deepest_fall = 0.02, over_barrier = 1e-3;  // the last: um
+inline constexpr double largest_fall = 0.2, largest_rise = 3, deepest_fall = 0.02;
+// Nearer than this, um, Born walls, barriers and bonds decide.
+inline constexpr double contact_range = 1e-3;
 
 // Where Newton's method begins for a gap that is foretold, not by its forces but by how it moved before. While forces are felt, the gap being
 // less than six times the range over which they change, it is held near where it was: a gap of 0.32 nm that was foretold at 0.06 nm had a
@@ -32,7 +34,7 @@ inline bool off_guess(double gap, double guess, bool refined) {
 // force (a few spheres squeezed between soft neighbours) the next guess is the gap at which the true force has that value: one step
 // from either side of a Born wall, h^-8, where the linear answer would be far inside it, or come out of it by an eighth a time.
 // Where they impose the gap, what is left is the error of a force that is steeper than the surroundings, and converges as Newton's.
-// Within a nanometre a pair that comes nearer against an easing force is over its barrier and falls: whatever pushed it there is taken up
+// Within contact_range a pair that comes nearer against an easing force is over its barrier and falls: whatever pushed it there is taken up
 // by the Born wall beyond.
 // gap: of the linear solution (may be negative), um; tangent: its force, pN; guess > 0; force(h): the true force at h, repulsion positive.
 template <typename Force>
@@ -42,7 +44,7 @@ double next_gap(double gap, double guess, double tangent, const Force& force) {
   bool falls = false;
   if (direct == gap) {
     const double reached = force(gap);
-    falls = inwards && gap < over_barrier && reached <= std::min(tangent, force(guess));
+    falls = inwards && gap < contact_range && reached <= std::min(tangent, force(guess));
     // Less than the linear law says: the gap itself is the nearer guess, unless it is none.
     if (reached <= tangent && !falls) return gap;
   }

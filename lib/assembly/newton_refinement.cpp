@@ -20,8 +20,8 @@ constexpr double weak_hold = 4;  // pN
 // Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess.
 constexpr double linearisation_share = 0.01, linear_range = 0.3;
 
-// Splitting alone: where a gap began further than this, its last motion foretells where it comes to, if not as near as it would if it were alone: clusters
-// hold most particles a few nanometres off each other. Nearer ones fall together faster than they came.
+// Splitting alone: where a gap began further than this, its last motion foretells where it comes to, if not as near as it would if it were
+// alone: clusters hold most particles a few nanometres off each other. Nearer ones fall together faster than they came.
 constexpr double falling = 6e-4;       // um
 constexpr double furthest_turn = 0.9;  // cosine
 
@@ -45,11 +45,10 @@ void StepAssembly::foretell(const std::vector<double>& u) {
     const double contact = radius_[i] + radius_[j];
     Vec3 d = separation_[p];
     for (int q = 0; q < 3; ++q) d[q] += dt_ * (u[j * D + q] - u[i * D + q]);
-    // The direction alone is taken: spheres as far apart as they are, about which half-way axes leave no turn (refine). A velocity that
-    // would carry one round the other is no guess.
-    const double foretold = d.norm() - contact;
     if (gap_begin_[p] > falling && guess_[p] < gap_begin_[p])
-      guess_[p] = std::max(guess_[p], std::clamp(foretold, largest_fall * gap_begin_[p], gap_begin_[p]));
+      guess_[p] = std::max(guess_[p], std::clamp(d.norm() - contact, largest_fall * gap_begin_[p], gap_begin_[p]));
+    // Of the axis the direction alone is taken: spheres as far apart as they are, about which half-way axes leave no turn (refine). A velocity
+    // that would carry one round the other is no guess.
     d *= separation_[p].norm() / d.norm();
     if (d.dot(separation_[p]) > furthest_turn * contact * contact) normal_[p] = (separation_[p] + d).normalized();
   }

@@ -151,12 +151,12 @@ StepForce StepAssembly::pair_step_force(int chunk, std::size_t p) const {
 }
 
 // A gap in contact that is guessed half as long again has lost its Born wall: what presses it together would then go right through the other
-// particle, be let out by the next pass, and so on. So the linear law of one that opens, and was no longer than `contact`, is as stiff as
+// particle, be let out by the next pass, and so on. So the linear law of one that opens is as stiff as
 // that from where the step began.
 double StepAssembly::wall_stiffness(int chunk, std::size_t p) const {
-  constexpr double contact = 1e-3, opens = 1.01;  // the first: um
+  constexpr double opens = 1.01;  // times its length: of one that hardly does the tangent is right
   const double begin = gap_begin_[p], guess = guess_[p];
-  return begin > 0 && begin < contact && guess > opens * begin ? std::max(pair_step_force(chunk, p).mean_stiffness(begin, guess), 0.0) : 0;
+  return begin > 0 && begin < contact_range && guess > opens * begin ? std::max(pair_step_force(chunk, p).mean_stiffness(begin, guess), 0.0) : 0;
 }
 
 // Where the pair would come to if it were alone.
