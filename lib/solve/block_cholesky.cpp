@@ -192,19 +192,14 @@ void BlockCholesky::add_numbers(std::int32_t k, const Front& f, std::span<const 
 }
 
 void BlockCholesky::add_update(const Front& f, std::int32_t child, int from) const {
-  const Front c = front(child);
-  const auto rows = static_cast<std::size_t>(f.rows());
-  const int own_rows = f.own_rows(), below_rows = f.below_rows(), column = row_in_parent_[tree_.supernodes[child].rows_begin + from / B];
-  for (int a = 0; a < B; ++a) {
-    // So that rows of the front index it, also where the own ones are not there.
-    double* to = column < own_rows ? f.values + (column + a) * rows : f.update + static_cast<std::ptrdiff_t>(column + a - own_rows) * below_rows - own_rows;
-    const double* of = update_of(child) + static_cast<std::size_t>(from + a) * c.below_rows();
-    for (std::int32_t q = places_[child].runs_begin; q < places_[child].runs_end; ++q) {
-      const Run& run = runs_[q];
-      const int first = std::max(run.from, from), length = run.from + run.length - first;
-      if (length > 0) add_rows(to + run.to + (first - run.from), of + first, length);
-    }
-  }
+  const std::size_t rows = f.rows(), below_rows = f.below_rows(), child_rows = front(child).below_rows();
+  const int own_rows = f.own_rows(), column = row_in_parent_[tree_.supernodes[child].rows_begin + from / B];
+  const bool is_own = column < own_rows;
+  // So that rows of the front index it, also where the own ones are not there.
+  double* to = is_own ? f.values + column * rows : f.update + static_cast<std::ptrdiff_t>(column - own_rows) * static_cast<std::ptrdiff_t>(below_rows) - own_rows;
+  const std::span<const Run> runs(runs_.data() + places_[child].runs_begin, runs_.data() + places_[child].runs_end);
+  const auto first = std::partition_point(runs.begin(), runs.end(), [&](const Run& run) { return run.from + run.length <= from; });
+  add_runs(to, is_own ? rows : below_rows, update_of(child) + from * child_rows, child_rows, from, {first, runs.end()});
 }
 
 void BlockCholesky::gather(std::int32_t k, const Front& f, std::span<const double> diagonal, std::span<const double> between) const {

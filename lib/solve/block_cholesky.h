@@ -48,10 +48,6 @@ class BlockCholesky {
     bool turned;  // the pair's first node is the later one
     std::size_t values;  // in its front
   };
-  // Rows below that follow one another in the parent's front too.
-  struct Run {
-    std::int32_t from, to, length;
-  };
   struct Part {
     std::int32_t begin, end;  // supernodes; those of the top among them are not the part's
     std::size_t memory;       // numbers, for its updates
@@ -101,7 +97,7 @@ class BlockCholesky {
   std::vector<std::int32_t> row_in_parent_, target_;
   std::vector<std::int32_t> children_;
   std::vector<Block> blocks_;
-  std::vector<Run> runs_;
+  std::vector<Run> runs_;  // of rows below, to the parent's front
   std::vector<Part> parts_;
   std::vector<std::int32_t> parts_by_work_, top_;
   std::size_t top_unknowns_ = 0, top_memory_ = 0, largest_values_ = 0, largest_update_ = 0, most_rows_ = 0;

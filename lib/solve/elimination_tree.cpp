@@ -24,17 +24,21 @@ bool may_join(double nodes, double zeros) {
   return false;
 }
 
-// Of each node, by place, its neighbours that come before it.
+// Of each node, by place, its neighbours that come before it, or after it.
 struct Neighbours {
   Numbers begin, node;
 };
-Neighbours earlier_neighbours(const Numbers& place, const Pairs& pairs) {
+Neighbours neighbours(const Numbers& place, const Pairs& pairs, bool later) {
   // At least one: AMD refuses a null pointer.
   Neighbours e{Numbers(place.size() + 1), Numbers(std::max<std::size_t>(pairs.size(), 1))};
-  for (const auto& [a, b] : pairs) ++e.begin[std::max(place[a], place[b]) + 1];
+  const auto of = [&](const auto& pair) { return std::minmax(place[pair.first], place[pair.second]); };
+  for (const auto& pair : pairs) ++e.begin[(later ? of(pair).first : of(pair).second) + 1];
   std::partial_sum(e.begin.begin(), e.begin.end(), e.begin.begin());
   Numbers next(e.begin.begin(), e.begin.end() - 1);
-  for (const auto& [a, b] : pairs) e.node[next[std::max(place[a], place[b])]++] = std::min(place[a], place[b]);
+  for (const auto& pair : pairs) {
+    const auto [low, high] = of(pair);
+    e.node[next[later ? low : high]++] = later ? high : low;
+  }
   return e;
 }
 
@@ -75,21 +79,36 @@ Numbers postorder(const Numbers& parent) {
   return post;
 }
 
-// The rows below the diagonal of each column of L: its matrix's own and those of its children.
-std::vector<Numbers> rows_below(const Numbers& place, const Numbers& parent, const Pairs& pairs) {
-  const std::size_t n = place.size();
-  std::vector<Numbers> rows(n), children(n);
-  Numbers seen(n, -1);
-  for (const auto& [a, b] : pairs) rows[std::min(place[a], place[b])].push_back(std::max(place[a], place[b]));
-  for (std::int32_t k = 0; k < static_cast<std::int32_t>(n); ++k) {
-    for (std::int32_t r : rows[k]) seen[r] = k;
-    for (std::int32_t child : children[k])
-      for (std::int32_t r : rows[child])
-        if (r != k && std::exchange(seen[r], k) != k) rows[k].push_back(r);
-    std::sort(rows[k].begin(), rows[k].end());
-    if (parent[k] >= 0) children[parent[k]].push_back(k);
+// How many rows each column of L has below its diagonal [gilbert1994], by the subtree that a row's nonzeros make: a column is a leaf of it where
+// it begins further on than all that came before in that row, and two leaves' paths up the tree meet where both have been counted.
+Numbers column_counts(const Numbers& parent, const Neighbours& later) {
+  const auto n = static_cast<std::int32_t>(parent.size());
+  Numbers first(n), furthest(n, -1), last_leaf(n, -1), above(n), count(n, 1);
+  std::iota(first.begin(), first.end(), 0);
+  std::iota(above.begin(), above.end(), 0);
+  for (std::int32_t k = 0; k < n; ++k)
+    if (parent[k] >= 0) {
+      first[parent[k]] = std::min(first[parent[k]], first[k]);
+      count[parent[k]] = 0;
+    }
+  for (std::int32_t k = 0; k < n; ++k) {
+    if (parent[k] >= 0) --count[parent[k]];
+    for (std::int32_t q = later.begin[k]; q < later.begin[k + 1]; ++q) {
+      const std::int32_t row = later.node[q];
+      if (first[k] <= furthest[row]) continue;
+      furthest[row] = first[k];
+      ++count[k];
+      if (std::int32_t meet = std::exchange(last_leaf[row], k); meet >= 0) {
+        for (; above[meet] != meet; meet = above[meet]) above[meet] = above[above[meet]];
+        --count[meet];
+      }
+    }
+    if (parent[k] >= 0) above[k] = parent[k];
   }
-  return rows;
+  for (std::int32_t k = 0; k < n; ++k)
+    if (parent[k] >= 0) count[parent[k]] += count[k];
+  for (std::int32_t& c : count) --c;  // the diagonal
+  return count;
 }
 
 }  // namespace
@@ -100,16 +119,16 @@ EliminationTree make_elimination_tree(int nodes, const Pairs& pairs) {
   if (n == 0) return t;
   t.place.resize(n);
   std::iota(t.place.begin(), t.place.end(), 0);
-  const Neighbours given = earlier_neighbours(t.place, pairs);
+  const Neighbours given = neighbours(t.place, pairs, false);
   Numbers order(n);
   if (amd_order(nodes, given.begin.data(), given.node.data(), order.data(), nullptr, nullptr) < AMD_OK) return {};
   for (std::size_t k = 0; k < n; ++k) t.place[order[k]] = static_cast<std::int32_t>(k);
-  const Numbers parent_before = parents(earlier_neighbours(t.place, pairs)), post = postorder(parent_before);
+  const Numbers parent_before = parents(neighbours(t.place, pairs, false)), post = postorder(parent_before);
   for (std::int32_t& p : t.place) p = post[p];
   Numbers parent(n, -1);
   for (std::size_t k = 0; k < n; ++k)
     if (parent_before[k] >= 0) parent[post[k]] = post[parent_before[k]];
-  const std::vector<Numbers> rows = rows_below(t.place, parent, pairs);
+  const Numbers below = column_counts(parent, neighbours(t.place, pairs, true));
 
   // From the end: a node joins the chain above it where its rows are the same, or nearly.
   struct Chain {
@@ -120,8 +139,8 @@ EliminationTree make_elimination_tree(int nodes, const Pairs& pairs) {
   for (std::int32_t k = nodes - 1; k >= 0; --k) {
     if (!chains.empty() && parent[k] == k + 1 && chains.back().first == k + 1) {
       Chain& above = chains.back();
-      const double columns = above.end - k, below = static_cast<double>(rows[above.end - 1].size());
-      const double more = columns - 1 + below - static_cast<double>(rows[k].size()), all = columns * (columns + 1) / 2 + columns * below;
+      const double columns = above.end - k, rows = below[above.end - 1];
+      const double more = columns - 1 + rows - below[k], all = columns * (columns + 1) / 2 + columns * rows;
       if (more == 0 || may_join(columns, (above.zeros + more) / all)) {
         above.first = k;
         above.zeros += more;
@@ -131,15 +150,23 @@ EliminationTree make_elimination_tree(int nodes, const Pairs& pairs) {
     chains.push_back({k, k + 1, 0});
   }
   Numbers supernode_of(n);
+  std::int32_t rows = 0;
   for (auto c = chains.rbegin(); c != chains.rend(); ++c) {
-    const Numbers& below = rows[c->end - 1];
-    const auto begin = static_cast<std::int32_t>(t.row.size());
     std::fill(supernode_of.begin() + c->first, supernode_of.begin() + c->end, static_cast<std::int32_t>(t.supernodes.size()));
-    t.row.insert(t.row.end(), below.begin(), below.end());
-    t.supernodes.push_back({c->first, c->end, -1, begin, static_cast<std::int32_t>(t.row.size())});
+    t.supernodes.push_back({c->first, c->end, -1, rows, rows});
+    rows += below[c->end - 1];
   }
   for (Supernode& s : t.supernodes)
-    if (s.rows_begin < s.rows_end) s.parent = supernode_of[t.row[s.rows_begin]];
+    if (parent[s.end - 1] >= 0) s.parent = supernode_of[parent[s.end - 1]];
+  // A row is below all supernodes between those of its own entries and its own.
+  t.row.resize(rows);
+  const Neighbours earlier = neighbours(t.place, pairs, false);
+  Numbers seen(t.supernodes.size(), -1);
+  for (std::int32_t k = 0; k < nodes; ++k) {
+    seen[supernode_of[k]] = k;
+    for (std::int32_t q = earlier.begin[k]; q < earlier.begin[k + 1]; ++q)
+      for (std::int32_t s = supernode_of[earlier.node[q]]; std::exchange(seen[s], k) != k; s = t.supernodes[s].parent) t.row[t.supernodes[s].rows_end++] = k;
+  }
   return t;
 }
 

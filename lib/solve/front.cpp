@@ -186,14 +186,22 @@ PIGMENT_INLINE void backward_panel(const KeptColumns& f, int begin, int end, Sid
   for (int n = 0; n < N; ++n) std::copy(x.of[n] + begin, x.of[n] + end, w.of[n] + begin);
 }
 
-PIGMENT_INLINE void add_rows(double* to, const double* from, int n) {
-  int i = 0;
-  for (; i + lanes <= n; i += lanes) {
-    Lanes v;
-    load(v, from + i);
-    add_to(to + i, v);
+PIGMENT_INLINE void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs) {
+  for (const Run& run : runs) {
+    const int skipped = std::max(first - run.from, 0), n = run.length - skipped;
+    if (n <= 0) continue;
+    for (int column = 0; column < B; ++column) {
+      double* t = to + column * to_rows + run.to + skipped;
+      const double* o = of + column * of_rows + run.from + skipped;
+      int i = 0;
+      for (; i + lanes <= n; i += lanes) {
+        Lanes v;
+        load(v, o + i);
+        add_to(t + i, v);
+      }
+      for (; i < n; ++i) t[i] += o[i];
+    }
   }
-  for (; i < n; ++i) to[i] += from[i];
 }
 
 }  // namespace kernel
@@ -212,7 +220,7 @@ template <int N>
 PIGMENT_WIDE void backward_columns(const KeptColumns& f, int column, int panel_end, Sides<N> x, Sides<N> w) { kernel::backward_columns(f, column, panel_end, x, w); }
 template <int N>
 PIGMENT_WIDE void backward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) { kernel::backward_panel(f, begin, end, x, w); }
-PIGMENT_WIDE void add_rows(double* to, const double* from, int n) { kernel::add_rows(to, from, n); }
+PIGMENT_WIDE void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs) { kernel::add_runs(to, to_rows, of, of_rows, first, runs); }
 }  // namespace wide
 
 }  // namespace
@@ -250,6 +258,8 @@ template void backward_columns<1>(const KeptColumns&, int, int, Sides<1>, Sides<
 template void backward_columns<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
 template void backward_panel<1>(const KeptColumns&, int, int, Sides<1>, Sides<1>);
 template void backward_panel<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
-void add_rows(double* to, const double* from, int n) { wide_processor() ? wide::add_rows(to, from, n) : kernel::add_rows(to, from, n); }
+void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs) {
+  wide_processor() ? wide::add_runs(to, to_rows, of, of_rows, first, runs) : kernel::add_runs(to, to_rows, of, of_rows, first, runs);
+}
 
 }  // namespace pigment::solve

@@ -3,6 +3,8 @@
 // to another front. Its unknowns come in blocks of three; rows are filled up to whole lanes, the own ones and those below each by
 // themselves. What stands above the diagonal has no meaning. Compiled for AVX2 and for any processor, with the same bits.
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "solve/lanes.h"
 
@@ -64,7 +66,11 @@ void backward_columns(const KeptColumns&, int column, int panel_end, Sides<N> x,
 template <int N>
 void backward_panel(const KeptColumns&, int begin, int end, Sides<N> x, Sides<N> w);
 
-// to += from, n numbers.
-void add_rows(double* to, const double* from, int n);
+// Rows of one front that follow one another in another's too, `length` of them from row `from`, which go to those from row `to`.
+struct Run {
+  std::int32_t from, to, length;
+};
+// Adds the three columns at `of`, of of_rows each, from their row `first` on, to those at `to`, of to_rows each. runs: rising, all rows of `of`.
+void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs);
 
 }  // namespace pigment::solve

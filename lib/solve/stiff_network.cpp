@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <new>
+#include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -19,6 +21,8 @@ constexpr int at(int row, int column) { return row * (row + 1) / 2 + column; }  
 // A factor made anew keeps the pairs of the one before, and with them its order and its pattern, while no more than so many others have
 // become stiff. Each costs an iteration or so.
 constexpr int most_missing = 10;
+
+using Edges = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 // A pair as the factor has it; which of its stiff pairs, -1: none.
 struct KnownPair {
@@ -78,31 +82,40 @@ struct StiffNetwork::Data {
   std::vector<KnownPairs> known;  // of each chunk
   std::vector<StiffPair> pairs;
 
-  // The stiff pairs, and in what order their particles are eliminated. False where memory is short.
-  bool choose_pairs(const PairSystem& system);
+  // The stiff pairs.
+  Edges choose_pairs(const PairSystem& system);
   // Takes over the system's pairs; of stiff ones that are gone nothing stays.
   void know_pairs(const PairSystem& system);
-  // S, factorised. False where it is not positive definite.
-  bool factorize(const PairSystem& system);
+  // S, factorised, from diagonal_blocks. False where it is not positive definite.
+  bool factorize(const PairSystem& system, const Scratch& block);
 };
 
-bool StiffNetwork::Data::choose_pairs(const PairSystem& system) {
-  known.assign(system.full.size(), {});
-  for (std::size_t c = 0; c < known.size(); ++c) {
+Edges StiffNetwork::Data::choose_pairs(const PairSystem& system) {
+  const int chunks = system.topology->chunks().count();
+  known.assign(chunks, {});
+  std::vector<std::int32_t> first(chunks + 1);  // of each chunk's stiff pairs
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c) {
     const auto take = [&](const auto& some, std::vector<KnownPair>& here) {
       here.reserve(some.size());
-      for (const auto& p : some) {
-        const bool stiff = is_stiff(system, p, p.squeeze, stiff_over_drag);
-        here.push_back({p.i, p.j, stiff ? static_cast<std::int32_t>(pairs.size()) : -1, 0});
-        if (stiff) pairs.push_back({p.i, p.j, {}, 0});
-      }
+      for (const auto& p : some) here.push_back({p.i, p.j, is_stiff(system, p, p.squeeze, stiff_over_drag) ? first[c + 1]++ : -1, 0});
     };
     take(system.full[c], known[c].full);
     take(system.squeeze[c], known[c].squeeze);
   }
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges(pairs.size());
-  std::transform(pairs.begin(), pairs.end(), edges.begin(), [](const StiffPair& p) { return std::pair(p.i, p.j); });
-  return factor.analyze(static_cast<int>(system.topology->particles()), edges);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  pairs.assign(first.back(), {});
+  Edges edges(pairs.size());
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < chunks; ++c)
+    for (std::vector<KnownPair>* here : {&known[c].full, &known[c].squeeze})
+      for (KnownPair& p : *here) {
+        if (p.stiff < 0) continue;
+        p.stiff += first[c];
+        pairs[p.stiff] = {p.i, p.j, {}, 0};
+        edges[p.stiff] = {p.i, p.j};
+      }
+  return edges;
 }
 
 void StiffNetwork::Data::know_pairs(const PairSystem& system) {
@@ -127,11 +140,10 @@ void StiffNetwork::Data::know_pairs(const PairSystem& system) {
   }
 }
 
-bool StiffNetwork::Data::factorize(const PairSystem& system) {
+bool StiffNetwork::Data::factorize(const PairSystem& system, const Scratch& block) {
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const std::size_t n = system.topology->particles();
   const int D = system.unknowns_per_particle(), entries = D * (D + 1) / 2;
-  const Scratch block = diagonal_blocks(system);
   held = system.held;
   const auto is_held = [&](std::size_t k) { return !held.empty() && held[k]; };
   cross.resize(system.rotation ? n * 9 : 0);
@@ -201,16 +213,38 @@ std::string StiffNetwork::factorize(const PairSystem& system, double stiff_over_
     return (!known || known->stiff < 0) && is_stiff(system, p, p.squeeze, stiff_over_drag);
   };
   const bool anew = !ready() || count_pairs(system, data_->known, missing) > most_missing;
+  const char* const no_memory = "out of memory";
   std::string refusal;
   try {
     if (anew) data_ = std::make_unique<Data>();
     data_->stiff_over_drag = stiff_over_drag;
-    if (anew && !data_->choose_pairs(system))
-      refusal = "out of memory";
-    else if (data_->know_pairs(system); !data_->factorize(system))
+    const Edges edges = anew ? data_->choose_pairs(system) : Edges();
+    // An order is found by one thread; another sums up the blocks meanwhile. Nothing may be thrown out of a parallel region.
+    std::optional<Scratch> block;
+    bool ordered = !anew;
+    if (!anew) {
+      block.emplace(diagonal_blocks(system));
+    } else {
+#pragma omp parallel sections
+      {
+#pragma omp section
+        try {
+          ordered = data_->factor.analyze(static_cast<int>(system.topology->particles()), edges);
+        } catch (const std::bad_alloc&) {
+        }
+#pragma omp section
+        try {
+          block.emplace(diagonal_blocks(system));
+        } catch (const std::bad_alloc&) {
+        }
+      }
+    }
+    if (!ordered || !block)
+      refusal = no_memory;
+    else if (data_->know_pairs(system); !data_->factorize(system, *block))
       refusal = "the matrix is not positive definite";
   } catch (const std::bad_alloc&) {
-    refusal = "out of memory";
+    refusal = no_memory;
   }
   if (!refusal.empty()) data_.reset();
   return refusal;
