@@ -13,10 +13,11 @@ inline constexpr double largest_fall = 0.2, largest_rise = 3, deepest_fall = 0.0
 inline constexpr double contact_range = 1e-3;
 
 // Where Newton's method begins for a gap that is foretold, not by its forces but by how it moved before. While forces are felt, the gap being
-// less than six times the range over which they change, it is held near where it was: a gap of 0.32 nm that was foretold at 0.06 nm had a
-// Born wall of 1 uN there, which threw all its neighbours about, and one that was foretold beyond its forces' range came out closed.
+// less than eight times the range over which they change (a double layer's last pN is a drying layer's drag, six ranges off), it is held near
+// where it was: a gap of 0.32 nm that was foretold at 0.06 nm had a Born wall of 1 uN there, which threw all its neighbours about, and one
+// of six ranges that was foretold at ten, where nothing holds it, came out closed (a 1 nm double layer: a third of all passes).
 inline double first_guess(double gap, double foretold, double range) {
-  const double within = std::min(0.5 * range, 0.15 * gap), reach = 6 * range;
+  const double within = std::min(0.5 * range, 0.15 * gap), reach = 8 * range;
   foretold = std::max(foretold, largest_fall * gap);
   if (gap < reach) return std::clamp(foretold, gap - within, gap + within);
   return std::max(foretold, std::min(reach, gap - within));

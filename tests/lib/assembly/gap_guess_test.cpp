@@ -103,8 +103,9 @@ TEST(FirstGuess, KeepsNearWhereForcesAreFelt) {
   const double range = 1;
   EXPECT_EQ(first_guess(20, 15, range), 15);
   EXPECT_EQ(first_guess(20, 30, range), 30);
-  EXPECT_EQ(first_guess(20, 2, range), 6);        // to where forces begin
-  EXPECT_EQ(first_guess(20, -5, range), 6);
+  EXPECT_EQ(first_guess(20, 2, range), 8);        // to where forces begin
+  EXPECT_EQ(first_guess(20, -5, range), 8);
+  EXPECT_DOUBLE_EQ(first_guess(6.5, 12, range), 7);  // held there by what little is felt
   EXPECT_DOUBLE_EQ(first_guess(5, 3, range), 4.5);
   EXPECT_DOUBLE_EQ(first_guess(5, 9, range), 5.5);
   EXPECT_DOUBLE_EQ(first_guess(5, 4.8, range), 4.8);
