@@ -32,6 +32,7 @@ void miss(GapCheck& check, double gap, double guess, double scale) {
   check.miss += missed * missed;
   check.linearisation += left * left;
   check.farthest = std::max(check.farthest, off);
+  check.deep = check.deep || gap < (1 - linear_range) * guess;
 }
 
 }  // namespace
@@ -209,6 +210,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   for (const GapCheck& check : checks) {
     all.refine = all.refine || check.refine;
     all.crossed = all.crossed || check.crossed;
+    all.deep = all.deep || check.deep;
     all.counted = all.counted && check.counted;
     all.only_pairs = all.only_pairs && check.only_pairs;
     if (check.smallest_gap < all.smallest_gap) {

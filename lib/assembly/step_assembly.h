@@ -52,6 +52,7 @@ struct GapCheck {
   double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess, and of how far
                                // particles at the surface stick out of it or would be moved by what it holds them with wrongly
   double farthest = 0;         // largest |gap - guess|/guess
+  bool deep = false;           // some gap came out so much nearer than its guess that its linear law says nothing of it
   double surface_height = 0;   // at the end of the step, um
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
@@ -95,8 +96,8 @@ class StepAssembly {
   // A random force, engine order, D a particle, that acts from here to the next begin().
   void set_random_force(std::vector<double> force) { random_force_ = std::move(force); }
   // Judges a solution (engine order) of the system built last and moves the guesses towards it.
-  // scale: um, the length by which a gap may be wrong (GapCheck::miss). tolerance: of the step, in these units: 0.5 % of it,
-  // as a root mean square over the particles, is what may be left of the linearisation; 0: nothing.
+  // scale: um, the length by which a gap may be wrong (GapCheck::miss). tolerance: of the step, in these units: a twentieth
+  // of it, as a root mean square over the particles, is what may be left of the linearisation; 0: nothing.
   GapCheck refine(const solve::PairSystem&, const std::vector<double>& solution, double scale = 5e-3, double tolerance = 0);
 
   const solve::PairTopology& topology() const { return topology_; }

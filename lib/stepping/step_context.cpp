@@ -252,7 +252,7 @@ StepSolution StepContext::solve(const StepStart& start, assembly::Treatment trea
     // Bonds that open and close within the step may have no solution that one linear system has too.
     const double miss = std::sqrt(s.check.miss / static_cast<double>(id_.size()));
     const double left = (treatment == assembly::Treatment::ConvexSplitting ? near_share_among_bonds : near_share) * problem_.stepping.tolerance;
-    const bool near = pass >= long_refinement && !problem_.interactions.pressure_limited() && s.check.only_pairs && !s.check.crossed && miss < left;
+    const bool near = pass >= long_refinement && !problem_.interactions.pressure_limited() && s.check.only_pairs && !s.check.crossed && !s.check.deep && miss < left;
     const bool unsettled = pass >= hopeless && (s.check.crossed || s.check.farthest > 1), torn = pass >= 3 && s.check.farthest > std::max(runaway, farthest);
     if (treatment == assembly::Treatment::ConvexSplitting && (unsettled || torn)) return s;
     farthest = s.check.farthest;
