@@ -13,10 +13,12 @@ SECONDS = 20.0        # for a layer of 30 um
 study = Study()
 full = study.size == "full"
 layer = study.cases[0]
-packings = [c for c in study.cases if re.search(r"-s\d+$", c)]    # of the layer and of its converged run, by seed, beside the first
-references = sorted((c for c in study.cases if "-tolerance-" in c and c not in packings), key=lambda c: float(c.split("-tolerance-")[1]))
+screened = f"{layer}-1nm"
+packings = [c for c in study.cases if re.search(r"-s\d+$", c)]    # of a layer and of its converged run, by seed, beside the first
+references = sorted((c for c in study.cases if c.startswith(f"{layer}-tolerance-") and c not in packings), key=lambda c: float(c.split("-tolerance-")[1]))
 finest = references[0]
-for_errors = (*references, *packings)    # whose times do not count
+of_finest = finest.removeprefix(layer)
+for_errors = (*references, *packings, *(c for c in study.cases if c.startswith(f"{screened}-tolerance-")))    # whose times do not count
 
 
 def text(value):
@@ -33,9 +35,11 @@ def look(case):
 
 
 runs = {case: look(case) for case in study.cases}
-states = {case: state(study, case, COMPARED) for case in (layer, *for_errors) if runs[case]["end"] >= COMPARED - 1e-6}
+states = {case: state(study, case, COMPARED) for case in (layer, screened, *for_errors) if runs[case]["end"] >= COMPARED - 1e-6}
 for case in references[1:] + [layer]:
     runs[case] |= differences(states[case], states[finest]) if case in states else {}
+if screened + of_finest in states:
+    runs[screened] |= differences(states[screened], states[screened + of_finest])
 columns = ["run", "particles", "threads", "seconds", "cpu_seconds", "steps", "outcome", "end", "solids", "smallest_gap_nm", *(key for key, *_ in MEASURES)]
 part = study.results / "layer.csv.part"
 with open(part, "w", newline="") as file:
@@ -66,21 +70,30 @@ study.claim("4.4", "Uncharged particles never overlap on the way to 80 wt-%", "n
 
 # ---- error, and what chance makes of converged runs
 chance = {key: max((differences(states[a], states[b])[key] for i, a in enumerate(references) for b in references[:i]), default=np.inf) for key, *_ in MEASURES}
-# Packings that both the layer and its converged run reached the time with.
-pairs = [(one, other) for one, other in [(layer, finest)] + [(c, c.replace(layer, finest)) for c in packings if "-tolerance-" not in c] if one in states and other in states]
-each = [differences(states[one], states[other]) for one, other in pairs]
-of_means = differences(mean_state(states[one] for one, _ in pairs), mean_state(states[other] for _, other in pairs)) if pairs else {}
-for key, label, bound in MEASURES:
-    error = of_means.get(key)
-    among = f"means over {len(pairs)} packings; each by itself {', '.join(f'{d[key]:.3g}' for d in each)}" if len(pairs) > 1 else "one packing"
-    study.claim("accuracy", f"A whole layer is close enough to the converged run: {label}", "none",
-                f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s ({among}); converged runs of one packing differ by up to {chance[key]:.3g} from one another",
-                f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound),
-                why="" if full else f"a difference of any size grows, as paths are chaotic, and a piece of {runs[layer]['particles']} particles leaves more of it to chance than those of SIZE=full, which decides")
+
+
+def judge(base, what):
+    # Packings that both the layer and its converged run reached the time with.
+    pairs = [(one, one.replace(base, base + of_finest)) for one in study.cases if re.fullmatch(rf"{re.escape(base)}(-s\d+)?", one)]
+    pairs = [(one, other) for one, other in pairs if one in states and other in states]
+    each = [differences(states[one], states[other]) for one, other in pairs]
+    of_means = differences(mean_state(states[one] for one, _ in pairs), mean_state(states[other] for _, other in pairs)) if pairs else {}
+    for key, label, bound in MEASURES:
+        error = of_means.get(key)
+        among = f"means over {len(pairs)} packings; each by itself {', '.join(f'{d[key]:.3g}' for d in each)}" if len(pairs) > 1 else "one packing"
+        study.claim("accuracy", f"{what} is close enough to the converged run: {label}", "none",
+                    f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s ({among}); converged runs of one packing differ by up to {chance[key]:.3g} from one another",
+                    f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound),
+                    why="" if full else f"a difference of any size grows, as paths are chaotic, and a piece of {runs[layer]['particles']} particles leaves more of it to chance than those of SIZE=full, which decides")
+
+
+judge(layer, "A whole layer")
+if full:
+    judge(screened, "A whole layer with a double layer of 1 nm")
 
 figure, axis = study.figure("progress", f"Steps of whole layers against time; {runs[layer]['particles']} particles, those to 80 wt-% {charged['particles']}; with the time by the clock that each took", width=110)
 for case in study.cases:
-    if case in packings:
+    if case in packings or case in for_errors and case not in references:
         continue
     strategy, thickness, *changed = case.split("-", 2)
     what = changed[0] if changed else "as in the drying study"
