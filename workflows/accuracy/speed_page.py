@@ -67,7 +67,7 @@ if (layers / "layer.csv").exists():
 ## Whole layers
 
 `make study-layer-speed SIZE={size}`: HLL to rest, with a double layer of 5, 1 and 0.5 nm; converged runs to 0.3 s{"; both with two more packings, s2 and s3" if size == "full" else ""}; at -25 mV and without charge to 80 wt-%. Threads "all"
-are every core ({os.cpu_count()} here); 1: converged runs, whose times do not count, may run side by side. Errors at 0.3 s against the finest tolerance: those of the other converged runs are chance, since paths are chaotic.
+are every core ({os.cpu_count()} here); 1: converged runs. These and further packings (s2, s3), whose times do not count, may run beside something else. Errors at 0.3 s against the finest tolerance: those of the other converged runs are chance, since paths are chaotic.
 
 | run | particles | threads | steps | wall time, s | CPU time, s | outcome | at, s | solids, wt-% | smallest gap, nm | solids profile L1 | separations < 50 nm, KS | clustered fraction at 20 nm | surface pressure |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|""")
