@@ -94,10 +94,14 @@ Edges StiffNetwork::Data::choose_pairs(const PairSystem& system) {
   const int chunks = system.topology->chunks().count();
   known.assign(chunks, {});
   std::vector<std::int32_t> first(chunks + 1);  // of each chunk's stiff pairs
+  // Here, since nothing may be thrown out of a parallel region.
+  for (int c = 0; c < chunks; ++c) {
+    known[c].full.reserve(system.full[c].size());
+    known[c].squeeze.reserve(system.squeeze[c].size());
+  }
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     const auto take = [&](const auto& some, std::vector<KnownPair>& here) {
-      here.reserve(some.size());
       for (const auto& p : some) here.push_back({p.i, p.j, is_stiff(system, p, p.squeeze, stiff_over_drag) ? first[c + 1]++ : -1, 0});
     };
     take(system.full[c], known[c].full);
