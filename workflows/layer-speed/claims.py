@@ -82,7 +82,7 @@ def judge(base, what):
         error = of_means.get(key)
         among = f"means over {len(pairs)} packings; each by itself {', '.join(f'{d[key]:.3g}' for d in each)}" if len(pairs) > 1 else "one packing"
         study.claim("accuracy", f"{what} is close enough to the converged run: {label}", "none",
-                    f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s ({among}); converged runs of one packing differ by up to {chance[key]:.3g} from one another",
+                    f"came to rest before {COMPARED:g} s" if error is None else f"{error:.3g} at {COMPARED:g} s ({among}); converged runs of one packing of {layer} differ by up to {chance[key]:.3g} from one another",
                     f"at most {bound:g}, against a tolerance of {finest.split('-tolerance-')[1]}", None if error is None or (error > bound and chance[key] > bound) else bool(error <= bound),
                     why="" if full else f"a difference of any size grows, as paths are chaotic, and a piece of {runs[layer]['particles']} particles leaves more of it to chance than those of SIZE=full, which decides")
 
