@@ -16,23 +16,39 @@ namespace {
 // Particles that neither touch the surface nor leave it may be held in one pass and free in the next for ever. After some passes one
 // stays as it is that the surface holds back by less than kT/nm, or that sticks out by less than a tenth of an atom.
 constexpr double weak_hold = 4;  // pN
+constexpr int unsure = 3;
 
 // Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess. A
 // hundredth took a quarter more passes, whose solves had next to nothing to do.
 constexpr double linearisation_share = 0.05, linear_range = 0.3;
+// A gap may be further off if its linear law is wrong there by less than this share of the force: contacts that open and close in a jam cross
+// a wide barrier, where the force hardly changes.
+constexpr double right_share = 0.1;
 
 // Splitting alone: where a gap began further than this, its last motion foretells where it comes to, if not as near as it would if it were
 // alone: clusters hold most particles a few nanometres off each other. Nearer ones fall together faster than they came.
 constexpr double falling = 6e-4;       // um
 constexpr double furthest_turn = 0.9;  // cosine
 
-// Takes down that a gap came out off its guess.
-void miss(GapCheck& check, double gap, double guess, double scale) {
-  const double missed = (gap - guess) / (std::max(gap, 0.0) + scale), off = std::abs(gap - guess) / guess, left = 0.5 * off * missed;
+// Takes down that a gap came out off its guess. share: of its force, by which the linear law is wrong there; moved: by how much the gap
+// changes in the step, um. A pair that is off by a share of the force that others balance moves them by that share of the length over which
+// theirs change e-fold, and what is off balance moves by that share of its motion.
+void miss(GapCheck& check, double gap, double guess, double scale, double share, double moved) {
+  const double missed = (gap - guess) / (std::max(gap, 0.0) + scale), off = std::abs(gap - guess) / guess;
+  const double left = std::min(0.5 * off * std::abs(missed), share * (scale + moved) / (std::max(gap, 0.0) + scale));
   check.miss += missed * missed;
   check.linearisation += left * left;
   check.farthest = std::max(check.farthest, off);
-  check.deep = check.deep || gap < (1 - linear_range) * guess;
+  if (off <= linear_range || share < right_share) return;
+  check.far = true;
+  check.deep = check.deep || gap < guess;
+}
+
+// By which share of itself the force at a gap is off its linear law; all of it where there is no such gap.
+double wrong_share(const StepForce& force, double gap, double tangent) {
+  if (gap <= 0) return 1;
+  const double there = force(gap);
+  return std::abs(there - tangent) / std::max({std::abs(there), std::abs(tangent), 1e-300});
 }
 
 }  // namespace
@@ -67,7 +83,7 @@ std::vector<double> StepAssembly::in_fours(const std::vector<double>& u) const {
 void StepAssembly::move_pairs(const std::vector<double>& velocity, std::size_t first, std::size_t count, double* gap, double* along) const {
   const auto pairs = std::span(pairs_).subspan(first, count);
   const auto normal = std::span<const Vec3>(normal_).subspan(first, count);
-  if (two_step_ || split_)
+  if (newton_)
     moved_gaps(velocity.data(), dt_, sphere_, pairs, std::span<const Vec3>(separation_).subspan(first, count), normal, std::span(gap, count), std::span(along, count));
   else
     moved_gaps(velocity.data(), dt_, sphere_, pairs, std::span<const double>(gap_begin_).subspan(first, count), normal, std::span(gap, count), std::span(along, count));
@@ -92,10 +108,10 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     if (interactions_.pressure_limited()) pressure = surface_pressure(u);
   }
   const std::vector<double> velocity = path_ ? std::vector<double>() : in_fours(u);
-  // Axes follow the mean of the passes: a particle about to tear swings round its bonds, which lengthens them, which throws it back by
-  // as much the next time.
-  if (split_ && passes_ == 0) swing_ = u;
-  for (std::size_t q = 0; split_ && q < u.size(); ++q) swing_[q] = 0.5 * (swing_[q] + u[q]);
+  // Axes follow the mean of the passes: a particle about to tear swings round its bonds, or a loose one round those that hold it, which
+  // lengthens their gaps, which throws it back by as much the next time.
+  if (newton_ && passes_ == 0) swing_ = u;
+  for (std::size_t q = 0; newton_ && q < u.size(); ++q) swing_[q] = 0.5 * (swing_[q] + u[q]);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
@@ -114,7 +130,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       }
       const double gap = gaps[at_hand], along = motion[at_hand];
       if (newton_) turn_[p] = gap - gap_from(p) - along;
-      if (split_ && std::abs(turn_[p]) > 0.01 * scale) {
+      if (newton_ && std::abs(turn_[p]) > 0.01 * scale) {
         const auto [i, j] = pairs_[p];
         Vec3 d = separation_[p];
         for (int q = 0; q < 3; ++q) d[q] += dt_ * (swing_[j * D + q] - swing_[i * D + q]);
@@ -131,10 +147,11 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       // A pair that overlapped from the start has no gap to keep open; its forces part it.
       if (gap_begin_[p] <= 0 || !newton_) continue;
       if (off_guess(gap, guess, two_step_ || split_ || guess != gap_begin_[p])) {
-        miss(check, gap, guess, scale);
         check.refine = true;
         const StepForce force = pair_step_force(c, p);
-        guess = bracket_[c][p].take(next_gap(gap, guess, force.tangent(gap), force), guess);
+        const double tangent = force.tangent(gap);
+        miss(check, gap, guess, scale, split_ ? 1 : wrong_share(force, gap, tangent), std::abs(gap - gap_begin_[p]));
+        guess = bracket_[c][p].take(next_gap(gap, guess, tangent, force), guess);
         least_stiffness_[p] = wall_stiffness(c, p);
       }
     }
@@ -152,8 +169,9 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
           if (gap <= 0) check.crossed = true;
           if (newton_ && off_guess(gap, guess, two_step_ || split_ || guess != begin)) {
             const StepForce force = substrate_step_force(k);
-            miss(check, gap, guess, scale);
-            guess = next_gap(gap, guess, force.tangent(gap), force);
+            const double tangent = force.tangent(gap);
+            miss(check, gap, guess, scale, split_ ? 1 : wrong_share(force, gap, tangent), std::abs(gap - begin));
+            guess = next_gap(gap, guess, tangent, force);
             counted_refine = true;
           }
         } else if ((gap < 0) != (guess < 0)) {
@@ -165,31 +183,47 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         const double protrusion = z + a + interactions_.free_surface->roughness - surface_end_;
         double& guess = protrusion_guess_[k];
         const double before = guess;
+        const forces::FreeSurfaceParameters& surface = *interactions_.free_surface;
         double wrong = 0, sticks_out = 0;  // pN, um: what is left if this is not put right
+        double load = 0;                   // pN, that presses it against others
         if (guess == held) {
           if (holding_force_[k] < (undecided ? -weak_hold : 0)) {
             guess = 0;  // the surface lets go
             wrong = holding_force_[k];
-          } else if (const double rigid = forces::rigid_load(*interactions_.free_surface, a); holding_force_[k] > rigid) {
-            guess = 2 * forces::rigid_protrusion;
-            wrong = holding_force_[k] - rigid;
+          } else if (const double rigid = forces::rigid_load(surface, a); holding_force_[k] > rigid) {
+            load = holding_force_[k];
+            // Where it is not the load that is given, but how far the particle comes, this may be far off: if so, from below.
+            guess = passes_ < unsure ? forces::lifted_height(surface, a, load) : 2 * forces::rigid_protrusion;
+            wrong = load - rigid;
           }
         } else if (guess > 0) {
-          const forces::SpringForce spring = forces::lifted_spring(*interactions_.free_surface, a, guess);
+          const forces::SpringForce spring = forces::lifted_spring(surface, a, guess);
           const double taken = spring.force + spring.stiffness * (protrusion - guess);
-          wrong = forces::lifted_spring(*interactions_.free_surface, a, protrusion).force - taken;
-          if (protrusion <= 0) guess = held;
-          // 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle. The force rises ever more slowly with
-          // the height: Newton's method from below comes nearer without overshooting, so what left the constant part begins at its end.
-          else if (std::abs(wrong) > 1e-3 * taken + 1e-4)
-            guess = guess < forces::rigid_protrusion && protrusion > forces::rigid_protrusion ? forces::rigid_protrusion : protrusion;
+          const bool loaded = taken > forces::rigid_load(surface, a);
+          if (loaded) load = taken;
+          if (protrusion <= 0 && !loaded) {
+            guess = held;
+            wrong = std::min(taken, 0.0);
+          } else {
+            wrong = forces::lifted_spring(surface, a, std::max(protrusion, 0.0)).force - taken;
+            // What is pressed with a given load comes to where the spring has it, what is pressed to a given height stands there, and the arc,
+            // which rises ever more slowly, would have Newton's method from above bring the first below the surface, from far below in many
+            // small steps. 1e-4 pN is a thousandth of the drag that a drying surface puts on the smallest particle.
+            if (protrusion <= 0) guess = forces::lifted_height(surface, a, taken);
+            else if (loaded && protrusion < 0.5 * guess) guess = std::sqrt(protrusion * forces::lifted_height(surface, a, taken));
+            else if (std::abs(wrong) > 1e-3 * std::abs(taken) + 1e-4) guess = protrusion;
+          }
         } else if (protrusion > (undecided ? forces::rigid_protrusion : 0)) {
           guess = held;  // caught
           holding_force_[k] = 0;
           sticks_out = protrusion;
         }
         if (guess != before) {
-          const double left = (dt_ * std::abs(wrong) / (6 * std::numbers::pi * liquid_.viscosity * a) + sticks_out) / scale;
+          // What is wrong moves a particle against its drag; one that is pressed against others, whose forces change e-fold within the scale,
+          // only as far as this share of its load changes their gaps.
+          double moves = dt_ * std::abs(wrong) / (6 * std::numbers::pi * liquid_.viscosity * a);
+          if (load > 0) moves = std::min(moves, std::abs(wrong) / load * (scale + std::abs(film_.height_begin - surface_end_)));
+          const double left = (moves + sticks_out) / scale;
           check.linearisation += left * left;
           (interactions_.pressure_limited() ? check.refine : counted_refine) = true;
         }
@@ -211,6 +245,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     all.refine = all.refine || check.refine;
     all.crossed = all.crossed || check.crossed;
     all.deep = all.deep || check.deep;
+    all.far = all.far || check.far;
     all.counted = all.counted && check.counted;
     all.only_pairs = all.only_pairs && check.only_pairs;
     if (check.smallest_gap < all.smallest_gap) {
@@ -219,7 +254,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
     }
   }
   const double left = std::sqrt(all.linearisation / static_cast<double>(radius_.size()));
-  if (newton_ && all.counted && !all.crossed && all.farthest < linear_range && left < linearisation_share * tolerance) all.refine = false;
+  if (newton_ && all.counted && !all.crossed && !all.far && left < linearisation_share * tolerance) all.refine = false;
   // Once the rest agrees at this height of the surface.
   if (interactions_.pressure_limited() && !all.refine && !all.crossed && !search_.settle(pressure)) {
     surface_end_ = search_.height();

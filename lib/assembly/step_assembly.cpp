@@ -94,7 +94,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
     height_begin_.resize(n);
     wall_squeeze_from_.resize(n);
   }
-  if (two_step_ || split_) separation_.resize(pairs_.size());
+  if (newton_) separation_.resize(pairs_.size());
   if (two_step_) {
     squeeze_from_.resize(pairs_.size());
     gap_from_.resize(pairs_.size());
@@ -152,7 +152,7 @@ void StepAssembly::begin(const Vec3Array& position, const Film& film, const Liqu
       continue;
     }
     separations(cell_, sphere_, std::span(pairs_).subspan(first, count), std::span(normal_).subspan(first, count),
-                std::span(gap_begin_).subspan(first, count), split_ ? std::span(separation_).subspan(first, count) : std::span<Vec3>());
+                std::span(gap_begin_).subspan(first, count), newton_ ? std::span(separation_).subspan(first, count) : std::span<Vec3>());
     for (std::size_t p = first; p < first + count; ++p) guess_[p] = resistance_gap_[p] = gap_begin_[p];
     if (interactions_.lubrication())
       for (std::size_t p = first; p < first + count; ++p)

@@ -52,7 +52,7 @@ struct GapCheck {
   double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess, and of how far
                                // particles at the surface stick out of it or would be moved by what it holds them with wrongly
   double farthest = 0;         // largest |gap - guess|/guess
-  bool deep = false;           // some gap came out so much nearer than its guess that its linear law says nothing of it
+  bool far = false, deep = false;  // some gap came out so far off its guess, or so much nearer, that its linear law says nothing of it
   double surface_height = 0;   // at the end of the step, um
   double smallest_gap = 0;     // at the end of the step, um (pairs)
   std::size_t worst_pair = 0;  // index into the neighbour list's pairs
@@ -210,7 +210,7 @@ class StepAssembly {
   // What each pair's gap gains as its axis turns in the step, (transverse motion)^2/2r, um: no part of the linear system, it is taken from
   // the last solution. Left out, a bond that turns by 5 degrees would be held 1 nm from where its force is right.
   std::vector<double> turn_;
-  std::vector<double> swing_;  // splitting alone: velocities that axes turn by, the running mean of the solutions
+  std::vector<double> swing_;  // velocities that axes turn by, the running mean of the solutions
   // What the averages along the step start from.
   std::vector<Vec3> separation_;                             // one a pair, from i to j
   std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;

@@ -16,11 +16,22 @@ SpringForce surface_spring(const FreeSurfaceParameters& p, double a, double h) {
 
 double rigid_load(const FreeSurfaceParameters& p, double a) {
   if (p.model == FreeSurfaceParameters::Model::Constraint) return std::numeric_limits<double>::infinity();
-  return surface_spring(p, a, rigid_protrusion).force;
+  return 0.5 * surface_spring(p, a, rigid_protrusion).force;
 }
 
 SpringForce lifted_spring(const FreeSurfaceParameters& p, double a, double h) {
-  return h < rigid_protrusion ? SpringForce{rigid_load(p, a), 0} : surface_spring(p, a, h);
+  if (h >= rigid_protrusion) return surface_spring(p, a, h);
+  const double half = rigid_load(p, a), stiffness = half / rigid_protrusion;
+  return {half + stiffness * h, stiffness};
+}
+
+double lifted_height(const FreeSurfaceParameters& p, double a, double load) {
+  double low = 0.5 * rigid_protrusion, high = a;
+  while (high > 1.001 * low) {
+    const double middle = std::sqrt(low * high);
+    (lifted_spring(p, a, middle).force < load ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
 }
 
 double entry_pressure(const FreeSurfaceParameters& p, const std::vector<double>& radius) {

@@ -15,6 +15,10 @@
 
 namespace pigment::solve {
 
+// In which a factor is computed; it is kept in single precision either way. Single takes little more than half the time, and what it rounds off
+// is 6e-8 of the stiffest block for each of the operations that a number goes through, where keeping rounds once.
+enum class Precision { Single, Double };
+
 class BlockCholesky {
  public:
   // Which different nodes have a block between them, each pair once. False where memory is short; std::bad_alloc too, here and from factorize.
@@ -27,7 +31,7 @@ class BlockCholesky {
   std::size_t bytes() const { return kept_size_ * sizeof(float); }
   // diagonal: 9 numbers for each place; between: 9 for each of the pairs, row by row, rows of its second node, columns of its first.
   // False where a pivot is not positive.
-  bool factorize(std::span<const double> diagonal, std::span<const double> between);
+  bool factorize(std::span<const double> diagonal, std::span<const double> between, Precision = Precision::Double);
   // x = A^-1 x, but for L's rounding to single precision, 3 numbers for each place, of one or two right-hand sides, one after the other.
   // By all threads of the parallel region that it is called in; outside of one, by one thread.
   void solve(double* x, int sides = 1);
@@ -57,17 +61,28 @@ class BlockCholesky {
   void find_children();
   void place_blocks(const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs, const std::vector<std::int32_t>& supernode_of);
   void divide();
-  // A front with its own columns in `values`; only its size counts where there are none.
-  Front front(std::int32_t supernode, double* values = nullptr, double* update = nullptr) const;
+  FrontSize size(std::int32_t supernode) const;
+  // Of numbers of either precision T. A front, which has its own columns where they are kept, or those of double precision in `values`.
+  template <typename T>
+  Front<T> front(std::int32_t supernode, T* values, T* update) const;
   KeptColumns kept(std::int32_t supernode) const;
-  double* update_of(std::int32_t supernode) const;
+  template <typename T>
+  T* update_of(std::int32_t supernode) const;
   // What the front is before its elimination: nothing, the matrix's own numbers, and of a child's update the three columns from `from` on.
-  void clear(std::int32_t supernode, const Front&, int begin, int end) const;
-  void add_numbers(std::int32_t supernode, const Front&, std::span<const double> diagonal, std::span<const double> between) const;
-  void add_update(const Front&, std::int32_t child, int from) const;
-  void gather(std::int32_t supernode, const Front&, std::span<const double> diagonal, std::span<const double> between) const;
-  bool factor_part(std::int32_t part, std::span<const double> diagonal, std::span<const double> between, double* values, double* update) const;
-  void factor_top(std::span<const double> diagonal, std::span<const double> between, double* values, bool& good) const;
+  template <typename T>
+  void clear(std::int32_t supernode, const Front<T>&, int begin, int end) const;
+  template <typename T>
+  void add_numbers(std::int32_t supernode, const Front<T>&, std::span<const double> diagonal, std::span<const double> between) const;
+  template <typename T>
+  void add_update(const Front<T>&, std::int32_t child, int from) const;
+  template <typename T>
+  void gather(std::int32_t supernode, const Front<T>&, std::span<const double> diagonal, std::span<const double> between) const;
+  template <typename T>
+  bool factor_part(std::int32_t part, std::span<const double> diagonal, std::span<const double> between, T* values, T* update) const;
+  template <typename T>
+  void factor_top(std::span<const double> diagonal, std::span<const double> between, T* values, bool& good) const;
+  template <typename T>
+  bool factorize(std::span<const double> diagonal, std::span<const double> between) const;
   // x of a supernode's first unknown, and room for its rows; of each right-hand side.
   template <int N>
   Sides<N> own(std::int32_t supernode, double* x) const;
@@ -103,7 +118,7 @@ class BlockCholesky {
   std::size_t top_unknowns_ = 0, top_memory_ = 0, largest_values_ = 0, largest_update_ = 0, most_rows_ = 0;
   std::size_t kept_size_ = 0;
   std::unique_ptr<float[]> kept_;
-  std::vector<std::unique_ptr<double[]>> updates_;  // of each part, then of the top
+  std::vector<std::unique_ptr<std::byte[]>> updates_;  // of each part, then of the top; room for doubles
   std::vector<double> to_top_;                      // of each part: what the top's unknowns get from it
   std::vector<double> top_rows_;                    // of the front of the top that is at hand
 };

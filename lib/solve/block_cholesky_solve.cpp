@@ -15,8 +15,7 @@ constexpr int rows_at_once = 16 * lanes;
 }  // namespace
 
 KeptColumns BlockCholesky::kept(std::int32_t k) const {
-  const Front f = front(k);
-  return {kept_.get() + places_[k].values, f.own, f.below};
+  return {size(k), kept_.get() + places_[k].values};
 }
 
 template <int N>
@@ -35,7 +34,7 @@ Sides<N> BlockCholesky::rows(double* w) const {
 // Subtracts what the rows below lose: within the part from x, of the top from to_top, which is added to x when all parts are through.
 template <int N>
 void BlockCholesky::scatter(std::int32_t k, const double* w, double* x, double* to_top) const {
-  const Front f = front(k);
+  const FrontSize f = size(k);
   for (int n = 0; n < N; ++n, w += most_rows_, x += B * tree_.place.size(), to_top += top_unknowns_) {
     const std::int32_t* target = target_.data() + tree_.supernodes[k].rows_begin;
     for (int row = f.own_rows(); row < f.own_rows() + f.below; row += B, ++target) {
@@ -47,7 +46,7 @@ void BlockCholesky::scatter(std::int32_t k, const double* w, double* x, double* 
 
 template <int N>
 void BlockCholesky::collect(std::int32_t k, const double* x, double* w) const {
-  const Front f = front(k);
+  const FrontSize f = size(k);
   for (int n = 0; n < N; ++n, w += most_rows_, x += B * tree_.place.size()) {
     const std::int32_t* node = tree_.row.data() + tree_.supernodes[k].rows_begin;
     std::fill(w + f.own, w + f.own_rows(), 0.0);
@@ -126,7 +125,7 @@ void BlockCholesky::solve_sides(double* x) {
     std::size_t at = n * top_unknowns_;
     for (const std::int32_t k : top_) {
       double* own_x = own<N>(k, x).of[n];
-      for (int d = 0; d < front(k).own; ++d, ++at)
+      for (int d = 0; d < size(k).own; ++d, ++at)
         for (std::size_t p = 0; p < parts_.size(); ++p) own_x[d] += to_top_[N * p * top_unknowns_ + at];
     }
   }

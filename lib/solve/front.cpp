@@ -8,62 +8,74 @@ namespace pigment::solve {
 namespace {
 
 constexpr int B = front_block;
-constexpr int lane_start(int n) { return n / lanes * lanes; }
+template <typename T>
+constexpr int lane_start(int n) {
+  return n / lanes_of<T> * lanes_of<T>;
+}
 
-// c (B columns, rows in whole lanes, column by column) -= a b^T, where a has K columns and b is three rows of the same. Named sums, since an
+// c (B columns, rows in whole vectors, column by column) -= a b^T, where a has K columns and b is three rows of the same. Named sums, since an
 // array of them would be kept in memory.
-PIGMENT_INLINE void subtract_12_rows(double* c, int ldc, const double* a, const double* b, int lda, int K, bool add) {
-  Lanes s00{}, s01{}, s02{}, s10{}, s11{}, s12{}, s20{}, s21{}, s22{};
-  double *c1 = c + ldc, *c2 = c1 + ldc;
+template <typename T>
+PIGMENT_INLINE void subtract_three_vectors(T* c, int ldc, const T* a, const T* b, int lda, int K, bool add) {
+  using V = typename VectorOf<T>::type;
+  constexpr int L = lanes_of<T>;
+  V s00{}, s01{}, s02{}, s10{}, s11{}, s12{}, s20{}, s21{}, s22{};
+  T *c1 = c + ldc, *c2 = c1 + ldc;
   if (add) {
-    load(s00, c), load(s01, c + lanes), load(s02, c + 2 * lanes);
-    load(s10, c1), load(s11, c1 + lanes), load(s12, c1 + 2 * lanes);
-    load(s20, c2), load(s21, c2 + lanes), load(s22, c2 + 2 * lanes);
+    load(s00, c), load(s01, c + L), load(s02, c + 2 * L);
+    load(s10, c1), load(s11, c1 + L), load(s12, c1 + 2 * L);
+    load(s20, c2), load(s21, c2 + L), load(s22, c2 + 2 * L);
   }
   for (int k = 0; k < K; ++k, a += lda, b += lda) {
-    Lanes x, y, z;
-    load(x, a), load(y, a + lanes), load(z, a + 2 * lanes);
+    V x, y, z;
+    load(x, a), load(y, a + L), load(z, a + 2 * L);
     subtract_fused(s00, x, b[0]), subtract_fused(s01, y, b[0]), subtract_fused(s02, z, b[0]);
     subtract_fused(s10, x, b[1]), subtract_fused(s11, y, b[1]), subtract_fused(s12, z, b[1]);
     subtract_fused(s20, x, b[2]), subtract_fused(s21, y, b[2]), subtract_fused(s22, z, b[2]);
   }
-  store(c, s00), store(c + lanes, s01), store(c + 2 * lanes, s02);
-  store(c1, s10), store(c1 + lanes, s11), store(c1 + 2 * lanes, s12);
-  store(c2, s20), store(c2 + lanes, s21), store(c2 + 2 * lanes, s22);
+  store(c, s00), store(c + L, s01), store(c + 2 * L, s02);
+  store(c1, s10), store(c1 + L, s11), store(c1 + 2 * L, s12);
+  store(c2, s20), store(c2 + L, s21), store(c2 + 2 * L, s22);
 }
-PIGMENT_INLINE void subtract_4_rows(double* c, int ldc, const double* a, const double* b, int lda, int K, bool add) {
-  Lanes s0{}, s1{}, s2{};
-  double *c1 = c + ldc, *c2 = c1 + ldc;
+template <typename T>
+PIGMENT_INLINE void subtract_one_vector(T* c, int ldc, const T* a, const T* b, int lda, int K, bool add) {
+  using V = typename VectorOf<T>::type;
+  V s0{}, s1{}, s2{};
+  T *c1 = c + ldc, *c2 = c1 + ldc;
   if (add) load(s0, c), load(s1, c1), load(s2, c2);
   for (int k = 0; k < K; ++k, a += lda, b += lda) {
-    Lanes x;
+    V x;
     load(x, a);
     subtract_fused(s0, x, b[0]), subtract_fused(s1, x, b[1]), subtract_fused(s2, x, b[2]);
   }
   store(c, s0), store(c1, s1), store(c2, s2);
 }
 
-PIGMENT_INLINE void subtract_product(double* c, int ldc, int begin, int end, const double* a, const double* b, int lda, int K, bool add) {
+template <typename T>
+PIGMENT_INLINE void subtract_product(T* c, int ldc, int begin, int end, const T* a, const T* b, int lda, int K, bool add) {
+  constexpr int L = lanes_of<T>;
   int i = begin;
-  for (; i + 3 * lanes <= end; i += 3 * lanes) subtract_12_rows(c + i, ldc, a + i, b, lda, K, add);
-  for (; i < end; i += lanes) subtract_4_rows(c + i, ldc, a + i, b, lda, K, add);
+  for (; i + 3 * L <= end; i += 3 * L) subtract_three_vectors(c + i, ldc, a + i, b, lda, K, add);
+  for (; i < end; i += L) subtract_one_vector(c + i, ldc, a + i, b, lda, K, add);
 }
 
 // Columns j to j + 2 of a front, from which those before have been subtracted. The diagonal is left as its inverse.
-PIGMENT_INLINE bool factor_columns(double* v, int ld, int j) {
-  double *c0 = v + static_cast<std::size_t>(j) * ld, *c1 = c0 + ld, *c2 = c1 + ld;
-  const double d00 = c0[j], d10 = c0[j + 1], d20 = c0[j + 2];
+template <typename T>
+PIGMENT_INLINE bool factor_columns(T* v, int ld, int j) {
+  using V = typename VectorOf<T>::type;
+  T *c0 = v + static_cast<std::size_t>(j) * ld, *c1 = c0 + ld, *c2 = c1 + ld;
+  const T d00 = c0[j], d10 = c0[j + 1], d20 = c0[j + 2];
   if (!(d00 > 0)) return false;
-  const double i0 = 1 / std::sqrt(d00), l10 = d10 * i0, l20 = d20 * i0;
-  const double d11 = c1[j + 1] - l10 * l10;
+  const T i0 = 1 / std::sqrt(d00), l10 = d10 * i0, l20 = d20 * i0;
+  const T d11 = c1[j + 1] - l10 * l10;
   if (!(d11 > 0)) return false;
-  const double i1 = 1 / std::sqrt(d11), l21 = (c1[j + 2] - l20 * l10) * i1;
-  const double d22 = c2[j + 2] - l20 * l20 - l21 * l21;
+  const T i1 = 1 / std::sqrt(d11), l21 = (c1[j + 2] - l20 * l10) * i1;
+  const T d22 = c2[j + 2] - l20 * l20 - l21 * l21;
   if (!(d22 > 0)) return false;
-  const double i2 = 1 / std::sqrt(d22);
+  const T i2 = 1 / std::sqrt(d22);
   if (!(i0 > 0 && i1 > 0 && i2 > 0)) return false;
-  for (int i = lane_start(j); i < ld; i += lanes) {
-    Lanes x, y, z;
+  for (int i = lane_start<T>(j); i < ld; i += lanes_of<T>) {
+    V x, y, z;
     load(x, c0 + i);
     load(y, c1 + i);
     load(z, c2 + i);
@@ -82,24 +94,28 @@ PIGMENT_INLINE bool factor_columns(double* v, int ld, int j) {
 
 namespace kernel {
 
-PIGMENT_INLINE void subtract_from_own(const Front& f, int begin, int end, int column) {
+template <typename T>
+PIGMENT_INLINE void subtract_from_own(const Front<T>& f, int begin, int end, int column) {
   const auto rows = static_cast<std::size_t>(f.rows());
-  const double* panel = f.values + begin * rows;
-  subtract_product(f.values + column * rows, f.rows(), lane_start(column), f.rows(), panel, panel + column, f.rows(), end - begin, true);
+  const T* panel = f.values + begin * rows;
+  subtract_product(f.values + column * rows, f.rows(), lane_start<T>(column), f.rows(), panel, panel + column, f.rows(), end - begin, true);
 }
-PIGMENT_INLINE void subtract_from_below(const Front& f, int begin, int end, int column, bool add) {
-  const double* panel = f.values + static_cast<std::size_t>(begin) * f.rows() + f.own_rows();
-  subtract_product(f.update + static_cast<std::size_t>(column) * f.below_rows(), f.below_rows(), Front::first_row(column), f.below_rows(), panel, panel + column,
+template <typename T>
+PIGMENT_INLINE void subtract_from_below(const Front<T>& f, int begin, int end, int column, bool add) {
+  const T* panel = f.values + static_cast<std::size_t>(begin) * f.rows() + f.own_rows();
+  subtract_product(f.update + static_cast<std::size_t>(column) * f.below_rows(), f.below_rows(), first_row(column), f.below_rows(), panel, panel + column,
                    f.rows(), end - begin, add || begin > 0);
 }
-PIGMENT_INLINE bool factor_panel(const Front& f, int begin, int end) {
+template <typename T>
+PIGMENT_INLINE bool factor_panel(const Front<T>& f, int begin, int end) {
   for (int column = begin; column < end; column += B) {
     kernel::subtract_from_own(f, begin, column, column);
     if (!factor_columns(f.values, f.rows(), column)) return false;
   }
   return true;
 }
-PIGMENT_INLINE bool factor_front(const Front& f, bool add) {
+template <typename T>
+PIGMENT_INLINE bool factor_front(const Front<T>& f, bool add) {
   for (int begin = 0; begin < f.own; begin += front_panel) {
     const int end = std::min(begin + front_panel, f.own);
     if (!kernel::factor_panel(f, begin, end)) return false;
@@ -109,7 +125,7 @@ PIGMENT_INLINE bool factor_front(const Front& f, bool add) {
   return true;
 }
 
-PIGMENT_INLINE void keep_columns(const Front& f, int begin, int end, float* to) {
+PIGMENT_INLINE void keep_columns(const Front<double>& f, int begin, int end, float* to) {
   const auto rows = static_cast<std::size_t>(f.rows());
   for (std::size_t q = begin * rows; q < end * rows; q += lanes) {
     Lanes v;
@@ -186,18 +202,22 @@ PIGMENT_INLINE void backward_panel(const KeptColumns& f, int begin, int end, Sid
   for (int n = 0; n < N; ++n) std::copy(x.of[n] + begin, x.of[n] + end, w.of[n] + begin);
 }
 
-PIGMENT_INLINE void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs) {
+template <typename T>
+PIGMENT_INLINE void add_runs(T* to, std::size_t to_rows, const T* of, std::size_t of_rows, int first, std::span<const Run> runs) {
+  using V = typename VectorOf<T>::type;
   for (const Run& run : runs) {
     const int skipped = std::max(first - run.from, 0), n = run.length - skipped;
     if (n <= 0) continue;
     for (int column = 0; column < B; ++column) {
-      double* t = to + column * to_rows + run.to + skipped;
-      const double* o = of + column * of_rows + run.from + skipped;
+      T* t = to + column * to_rows + run.to + skipped;
+      const T* o = of + column * of_rows + run.from + skipped;
       int i = 0;
-      for (; i + lanes <= n; i += lanes) {
-        Lanes v;
+      for (; i + lanes_of<T> <= n; i += lanes_of<T>) {
+        V v, sum;
         load(v, o + i);
-        add_to(t + i, v);
+        load(sum, t + i);
+        sum += v;
+        store(t + i, sum);
       }
       for (; i < n; ++i) t[i] += o[i];
     }
@@ -207,11 +227,15 @@ PIGMENT_INLINE void add_runs(double* to, std::size_t to_rows, const double* of, 
 }  // namespace kernel
 
 namespace wide {
-PIGMENT_WIDE bool factor_panel(const Front& f, int begin, int end) { return kernel::factor_panel(f, begin, end); }
-PIGMENT_WIDE void subtract_from_own(const Front& f, int begin, int end, int column) { kernel::subtract_from_own(f, begin, end, column); }
-PIGMENT_WIDE void subtract_from_below(const Front& f, int begin, int end, int column, bool add) { kernel::subtract_from_below(f, begin, end, column, add); }
-PIGMENT_WIDE bool factor_front(const Front& f, bool add) { return kernel::factor_front(f, add); }
-PIGMENT_WIDE void keep_columns(const Front& f, int begin, int end, float* to) { kernel::keep_columns(f, begin, end, to); }
+template <typename T>
+PIGMENT_WIDE bool factor_panel(const Front<T>& f, int begin, int end) { return kernel::factor_panel(f, begin, end); }
+template <typename T>
+PIGMENT_WIDE void subtract_from_own(const Front<T>& f, int begin, int end, int column) { kernel::subtract_from_own(f, begin, end, column); }
+template <typename T>
+PIGMENT_WIDE void subtract_from_below(const Front<T>& f, int begin, int end, int column, bool add) { kernel::subtract_from_below(f, begin, end, column, add); }
+template <typename T>
+PIGMENT_WIDE bool factor_front(const Front<T>& f, bool add) { return kernel::factor_front(f, add); }
+PIGMENT_WIDE void keep_columns(const Front<double>& f, int begin, int end, float* to) { kernel::keep_columns(f, begin, end, to); }
 template <int N>
 PIGMENT_WIDE void forward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) { kernel::forward_panel(f, begin, end, x, w); }
 template <int N>
@@ -220,20 +244,29 @@ template <int N>
 PIGMENT_WIDE void backward_columns(const KeptColumns& f, int column, int panel_end, Sides<N> x, Sides<N> w) { kernel::backward_columns(f, column, panel_end, x, w); }
 template <int N>
 PIGMENT_WIDE void backward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) { kernel::backward_panel(f, begin, end, x, w); }
-PIGMENT_WIDE void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs) { kernel::add_runs(to, to_rows, of, of_rows, first, runs); }
+template <typename T>
+PIGMENT_WIDE void add_runs(T* to, std::size_t to_rows, const T* of, std::size_t of_rows, int first, std::span<const Run> runs) { kernel::add_runs(to, to_rows, of, of_rows, first, runs); }
 }  // namespace wide
 
 }  // namespace
 
-bool factor_panel(const Front& f, int begin, int end) { return wide_processor() ? wide::factor_panel(f, begin, end) : kernel::factor_panel(f, begin, end); }
-void subtract_from_own(const Front& f, int begin, int end, int column) {
+template <typename T>
+bool factor_panel(const Front<T>& f, int begin, int end) {
+  return wide_processor() ? wide::factor_panel(f, begin, end) : kernel::factor_panel(f, begin, end);
+}
+template <typename T>
+void subtract_from_own(const Front<T>& f, int begin, int end, int column) {
   wide_processor() ? wide::subtract_from_own(f, begin, end, column) : kernel::subtract_from_own(f, begin, end, column);
 }
-void subtract_from_below(const Front& f, int begin, int end, int column, bool add) {
+template <typename T>
+void subtract_from_below(const Front<T>& f, int begin, int end, int column, bool add) {
   wide_processor() ? wide::subtract_from_below(f, begin, end, column, add) : kernel::subtract_from_below(f, begin, end, column, add);
 }
-bool factor_front(const Front& f, bool add) { return wide_processor() ? wide::factor_front(f, add) : kernel::factor_front(f, add); }
-void keep_columns(const Front& f, int begin, int end, float* to) { wide_processor() ? wide::keep_columns(f, begin, end, to) : kernel::keep_columns(f, begin, end, to); }
+template <typename T>
+bool factor_front(const Front<T>& f, bool add) {
+  return wide_processor() ? wide::factor_front(f, add) : kernel::factor_front(f, add);
+}
+void keep_columns(const Front<double>& f, int begin, int end, float* to) { wide_processor() ? wide::keep_columns(f, begin, end, to) : kernel::keep_columns(f, begin, end, to); }
 template <int N>
 void forward_panel(const KeptColumns& f, int begin, int end, Sides<N> x, Sides<N> w) {
   wide_processor() ? wide::forward_panel(f, begin, end, x, w) : kernel::forward_panel(f, begin, end, x, w);
@@ -258,8 +291,19 @@ template void backward_columns<1>(const KeptColumns&, int, int, Sides<1>, Sides<
 template void backward_columns<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
 template void backward_panel<1>(const KeptColumns&, int, int, Sides<1>, Sides<1>);
 template void backward_panel<2>(const KeptColumns&, int, int, Sides<2>, Sides<2>);
-void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs) {
+template <typename T>
+void add_runs(T* to, std::size_t to_rows, const T* of, std::size_t of_rows, int first, std::span<const Run> runs) {
   wide_processor() ? wide::add_runs(to, to_rows, of, of_rows, first, runs) : kernel::add_runs(to, to_rows, of, of_rows, first, runs);
 }
+template bool factor_panel(const Front<float>&, int, int);
+template bool factor_panel(const Front<double>&, int, int);
+template void subtract_from_own(const Front<float>&, int, int, int);
+template void subtract_from_own(const Front<double>&, int, int, int);
+template void subtract_from_below(const Front<float>&, int, int, int, bool);
+template void subtract_from_below(const Front<double>&, int, int, int, bool);
+template bool factor_front(const Front<float>&, bool);
+template bool factor_front(const Front<double>&, bool);
+template void add_runs(float*, std::size_t, const float*, std::size_t, int, std::span<const Run>);
+template void add_runs(double*, std::size_t, const double*, std::size_t, int, std::span<const Run>);
 
 }  // namespace pigment::solve

@@ -1,7 +1,7 @@
 #pragma once
 // A front of the multifrontal method: a dense symmetric matrix, column by column, whose first columns are eliminated and which leaves the rest
-// to another front. Its unknowns come in blocks of three; rows are filled up to whole lanes, the own ones and those below each by
-// themselves. What stands above the diagonal has no meaning. Compiled for AVX2 and for any processor, with the same bits.
+// to another front. Its unknowns come in blocks of three; rows are filled up to whole vectors of either precision, the own ones and those
+// below each by themselves. What stands above the diagonal has no meaning. Compiled for AVX2 and for any processor, with the same bits.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,39 +12,46 @@ namespace pigment::solve {
 
 constexpr int front_block = 3;
 constexpr int whole_lanes(int n) { return (n + lanes - 1) / lanes * lanes; }
+constexpr int whole_rows(int n) { return (n + lanes_of<float> - 1) / lanes_of<float> * lanes_of<float>; }
 
-struct Front {
-  double* values;  // the columns to eliminate, of own_rows() + below_rows() each; factorised, the diagonal holds its inverse
-  double* update;  // the columns that are left, of below_rows() each
+struct FrontSize {
   int own, below;  // unknowns to eliminate, and those that are left
 
-  int own_rows() const { return whole_lanes(own); }
-  int below_rows() const { return whole_lanes(below); }
+  int own_rows() const { return whole_rows(own); }
+  int below_rows() const { return whole_rows(below); }
   int rows() const { return own_rows() + below_rows(); }
-  // The first row of a column of `update` that is written and read.
-  static int first_row(int column) { return column / front_block * front_block / lanes * lanes; }
 };
+
+// T: float or double.
+template <typename T>
+struct Front : FrontSize {
+  T* values;  // the columns to eliminate, of own_rows() + below_rows() each; factorised, the diagonal holds its inverse
+  T* update;  // the columns that are left, of below_rows() each
+};
+// The first row of a column of `update` that is written and read.
+constexpr int first_row(int column) { return column / front_block * front_block / lanes_of<float> * lanes_of<float>; }
 
 // Columns are eliminated panel by panel: those of a panel from begin to end among themselves first; false where a pivot is not positive.
 // Then they are subtracted from columns that follow, of which each is a block's first: own ones, and those below, which hold something
 // from before or not.
 constexpr int front_panel = 16 * front_block;
-bool factor_panel(const Front&, int begin, int end);
-void subtract_from_own(const Front&, int begin, int end, int column);
-void subtract_from_below(const Front&, int begin, int end, int column, bool add);
+template <typename T>
+bool factor_panel(const Front<T>&, int begin, int end);
+template <typename T>
+void subtract_from_own(const Front<T>&, int begin, int end, int column);
+template <typename T>
+void subtract_from_below(const Front<T>&, int begin, int end, int column, bool add);
 // All of it by one thread; `add`: whether there is something in `update`.
-bool factor_front(const Front&, bool add);
+template <typename T>
+bool factor_front(const Front<T>&, bool add);
 
 // The eliminated columns as they are kept for solves: in single precision, half as much to read, as solves wait for nothing else. Of a stiff
 // matrix that is no exact inverse any more, but as good a preconditioner.
-struct KeptColumns {
+struct KeptColumns : FrontSize {
   const float* values;  // of rows() each, as in the front
-  int own, below;
-  int own_rows() const { return whole_lanes(own); }
-  int rows() const { return own_rows() + whole_lanes(below); }
 };
 // float of each of the columns from begin to end of `values`.
-void keep_columns(const Front&, int begin, int end, float* to);
+void keep_columns(const Front<double>&, int begin, int end, float* to);
 
 // Up to two right-hand sides are solved for at once: the columns, read once, are what takes time. Each has its own bits, alone or not.
 constexpr int most_sides = 2;
@@ -71,6 +78,7 @@ struct Run {
   std::int32_t from, to, length;
 };
 // Adds the three columns at `of`, of of_rows each, from their row `first` on, to those at `to`, of to_rows each. runs: rising, all rows of `of`.
-void add_runs(double* to, std::size_t to_rows, const double* of, std::size_t of_rows, int first, std::span<const Run> runs);
+template <typename T>
+void add_runs(T* to, std::size_t to_rows, const T* of, std::size_t of_rows, int first, std::span<const Run> runs);
 
 }  // namespace pigment::solve

@@ -30,6 +30,22 @@ inline bool wide_processor() {
 
 PIGMENT_INLINE void load(Lanes& v, const double* at) { std::memcpy(&v, at, sizeof v); }
 PIGMENT_INLINE void store(double* at, const Lanes& v) { std::memcpy(at, &v, sizeof v); }
+// A vector of either precision: four doubles, or eight numbers of single precision.
+template <typename T>
+inline constexpr int lanes_of = static_cast<int>(lanes * sizeof(double) / sizeof(T));
+typedef float EightLanes __attribute__((vector_size(lanes * sizeof(double))));
+template <typename T>
+struct VectorOf;
+template <>
+struct VectorOf<double> {
+  typedef Lanes type;
+};
+template <>
+struct VectorOf<float> {
+  typedef EightLanes type;
+};
+PIGMENT_INLINE void load(EightLanes& v, const float* at) { std::memcpy(&v, at, sizeof v); }
+PIGMENT_INLINE void store(float* at, const EightLanes& v) { std::memcpy(at, &v, sizeof v); }
 // Four numbers of single precision.
 typedef float SingleLanes __attribute__((vector_size(lanes * sizeof(float))));
 PIGMENT_INLINE void load_single(Lanes& v, const float* at) {
@@ -50,6 +66,10 @@ PIGMENT_INLINE void add_to(double* at, const Lanes& v) {
 // sum - a * b in one rounding.
 PIGMENT_INLINE void subtract_fused(Lanes& sum, const Lanes& a, double b) {
   sum = Lanes{__builtin_fma(-a[0], b, sum[0]), __builtin_fma(-a[1], b, sum[1]), __builtin_fma(-a[2], b, sum[2]), __builtin_fma(-a[3], b, sum[3])};
+}
+PIGMENT_INLINE void subtract_fused(EightLanes& sum, const EightLanes& a, float b) {
+  sum = EightLanes{__builtin_fmaf(-a[0], b, sum[0]), __builtin_fmaf(-a[1], b, sum[1]), __builtin_fmaf(-a[2], b, sum[2]), __builtin_fmaf(-a[3], b, sum[3]),
+                   __builtin_fmaf(-a[4], b, sum[4]), __builtin_fmaf(-a[5], b, sum[5]), __builtin_fmaf(-a[6], b, sum[6]), __builtin_fmaf(-a[7], b, sum[7])};
 }
 // Rows become columns.
 PIGMENT_INLINE void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {

@@ -65,25 +65,35 @@ TEST(SurfaceSpring, BeginsAtZeroAndEndsWhenTheParticleHasLeft) {
   EXPECT_NEAR(surface_spring(arc, 0.5, h).force, 0.3, 1e-12);
 }
 
-TEST(SurfaceSpring, HoldsExactlyUpToWhatWouldLiftByAHundredthOfANanometre) {
-  EXPECT_NEAR(rigid_load(arc, 0.5), 72000 * 2 * 0.5 * std::acos(1 - 1e-5 / 0.5), 1e-6);
+TEST(SurfaceSpring, HoldsExactlyUpToHalfOfWhatWouldLiftByAHundredthOfANanometre) {
+  EXPECT_NEAR(rigid_load(arc, 0.5), 72000 * 0.5 * std::acos(1 - 1e-5 / 0.5), 1e-6);
   EXPECT_LT(rigid_load(gain, 0.5), rigid_load(arc, 0.5));
   EXPECT_TRUE(std::isinf(rigid_load(surface("{model: constraint}"), 0.5)));
 }
 
-// Each load above what is held has one height, and none is skipped: the force neither falls nor jumps on the way up.
-TEST(SurfaceSpring, WhatIsLiftedIsPulledBackNoLessThanWhatIsHeld) {
+// Each load above what is held has one height, and none is skipped: the force rises all the way up, from what is held, without a jump, and
+// where the spring takes over from its tangent the arc's slope does not jump either.
+TEST(SurfaceSpring, WhatIsLiftedIsPulledBackMoreThanWhatIsHeld) {
   for (const auto& p : {arc, gain}) {
     const double load = rigid_load(p, 0.2);
-    EXPECT_EQ(lifted_spring(p, 0.2, 1e-12).force, load);
+    EXPECT_NEAR(lifted_spring(p, 0.2, 1e-12).force, load, 1e-6 * load);
     double before = load;
-    for (double h = 1e-6; h < 0.1; h *= 1.1) {
+    for (double h = 1e-7; h < 0.1; h *= 1.1) {
       const double f = lifted_spring(p, 0.2, h).force;
-      EXPECT_GE(f, before);
+      EXPECT_GT(f, before);
       EXPECT_LT(f, 1.2 * before);  // 1.1 to the power of 3/2 (arc minus chord) or 1/2
       before = f;
     }
   }
+  const double below = lifted_spring(arc, 0.2, 0.999 * rigid_protrusion).stiffness, above = lifted_spring(arc, 0.2, 1.001 * rigid_protrusion).stiffness;
+  EXPECT_NEAR(below, above, 2e-3 * above);
+}
+
+TEST(SurfaceSpring, LiftsToWhereItBearsTheLoad) {
+  for (const auto& p : {arc, gain})
+    for (double h = 0.6 * rigid_protrusion; h < 0.2; h *= 3) EXPECT_NEAR(lifted_height(p, 0.2, lifted_spring(p, 0.2, h).force), h, 1e-3 * h);
+  EXPECT_NEAR(lifted_height(arc, 0.2, 1e9), 0.2, 1e-3);
+  EXPECT_NEAR(lifted_height(arc, 0.2, 0), 0.5 * rigid_protrusion, 1e-3 * rigid_protrusion);
 }
 
 // 6 sigma/d32 by hand: diameters 1 (twice) and 2: d32 = (2 + 8)/(2 + 4) = 5/3 um.
