@@ -110,8 +110,12 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
   const std::vector<double> velocity = path_ ? std::vector<double>() : in_fours(u);
   // Axes follow the mean of the passes: a particle about to tear swings round its bonds, or a loose one round those that hold it, which
   // lengthens their gaps, which throws it back by as much the next time.
-  if (newton_ && passes_ == 0) swing_ = u;
-  for (std::size_t q = 0; newton_ && q < u.size(); ++q) swing_[q] = 0.5 * (swing_[q] + u[q]);
+  if (newton_ && passes_ == 0) {
+    swing_ = velocity;
+  } else if (newton_) {
+#pragma omp parallel for schedule(static)
+    for (std::size_t q = 0; q < swing_.size(); ++q) swing_[q] = 0.5 * (swing_[q] + velocity[q]);
+  }
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < chunks; ++c) {
     GapCheck& check = checks[c];
@@ -133,7 +137,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       if (newton_ && std::abs(turn_[p]) > 0.01 * scale) {
         const auto [i, j] = pairs_[p];
         Vec3 d = separation_[p];
-        for (int q = 0; q < 3; ++q) d[q] += dt_ * (swing_[j * D + q] - swing_[i * D + q]);
+        for (int q = 0; q < 3; ++q) d[q] += dt_ * (swing_[4 * j + q] - swing_[4 * i + q]);
         // The axis half-way: along it the gap changes by what the spheres move, but for a term of fourth order.
         normal_[p] = (separation_[p] + d).normalized();
         turn_[p] = d.norm() - radius_[i] - radius_[j] - gap_from(p) - normal_[p].dot(d - separation_[p]);

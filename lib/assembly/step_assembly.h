@@ -210,7 +210,7 @@ class StepAssembly {
   // What each pair's gap gains as its axis turns in the step, (transverse motion)^2/2r, um: no part of the linear system, it is taken from
   // the last solution. Left out, a bond that turns by 5 degrees would be held 1 nm from where its force is right.
   std::vector<double> turn_;
-  std::vector<double> swing_;  // velocities that axes turn by, the running mean of the solutions
+  std::vector<double> swing_;  // velocities that axes turn by, four numbers a particle: the running mean of the solutions
   // What the averages along the step start from.
   std::vector<Vec3> separation_;                             // one a pair, from i to j
   std::vector<forces::PairTerm> term_begin_, substrate_term_begin_;

@@ -25,6 +25,9 @@ constexpr double near_share = 0.5, near_share_among_bonds = 1;
 constexpr int hopeless = 10;
 // A bond that came out this many times its length off, and further with every pass, is torn open; what it held needs shorter steps.
 constexpr double runaway = 8;
+// An error of one gap counts as no more than this: what changes its course so much within a step has snapped open or shut, which shorter
+// steps follow no better. In a jam of 7,070 particles one snap in 30,000 pairs counted as much as all the rest, and made steps a third shorter.
+constexpr double snap = 0.3;
 }
 
 StepContext::StepContext(const Problem& problem, const RunState& state) : problem_(problem) {
@@ -187,7 +190,7 @@ double StepContext::gap_error(const std::vector<double>& gap, const std::vector<
     const std::int32_t i = list_.order[list_.pairs[p].i], j = list_.order[list_.pairs[p].j];
     const double smaller = std::min(problem_.particles.radius[i], problem_.particles.radius[j]);
     if (gap[p] > std::max(20 * scale, 0.4 * smaller)) continue;
-    const double error = difference[p] / (std::max(gap[p], 0.0) + scale);
+    const double error = std::min(std::abs(difference[p]) / (std::max(gap[p], 0.0) + scale), snap);
     sum += error * error;
     ++count;
   }

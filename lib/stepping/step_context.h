@@ -83,7 +83,7 @@ class StepContext {
   // Makes the list anew within a step; the next step makes its own.
   void list_at(const Vec3Array& position, double time);
   // Root mean square, over the pairs that are near each other at the step's beginning, of a difference of gaps in units of
-  // gap + Debye length.
+  // gap + Debye length, of which one counts as 0.3 at most.
   double gap_error(const std::vector<double>& gap_begin, const std::vector<double>& difference) const;
   // Rate of change of every listed pair's gap, at the normals of the step solved last, um/ms.
   std::vector<double> gap_rates(const std::vector<double>& solution) const;
