@@ -133,6 +133,8 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
         move_pairs(velocity, p, count, gaps, motion);
       }
       const double gap = gaps[at_hand], along = motion[at_hand];
+      // What the linear law's force belongs to: not the gap itself, where the axis turned otherwise than the last pass had it.
+      const double linear_gap = newton_ ? gap_from(p) + along + turn_[p] : gap;
       if (newton_) turn_[p] = gap - gap_from(p) - along;
       if (newton_ && std::abs(turn_[p]) > 0.01 * scale) {
         const auto [i, j] = pairs_[p];
@@ -153,7 +155,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       if (off_guess(gap, guess, two_step_ || split_ || guess != gap_begin_[p])) {
         check.refine = true;
         const StepForce force = pair_step_force(c, p);
-        const double tangent = force.tangent(gap);
+        const double tangent = force.tangent(linear_gap);
         miss(check, gap, guess, scale, split_ ? 1 : wrong_share(force, gap, tangent), std::abs(gap - gap_begin_[p]));
         guess = bracket_[c][p].take(next_gap(gap, guess, tangent, force), guess);
         least_stiffness_[p] = wall_stiffness(c, p);

@@ -235,3 +235,42 @@ TEST(Integrators, ConvexSplittingTearsBondsInAFewPasses) {
   EXPECT_LE(most, 12);
   EXPECT_GT(farthest, 1);  // um: torn off indeed
 }
+
+// A charged sphere in the hollow between three that attract it beyond their double layers, pulled out of it sideways, so that it swings round
+// them by many times the range of the forces that hold it off: steps of either formula find their solution in a few passes, since axes turn with it.
+TEST(Integrators, NewtonFollowsASwingingSphereInAFewPasses) {
+  Setting s = uncharged();
+  auto document = config::Document::from_text(
+      "colloidal: {electrostatic: {debye_length: 1 nm}, van_der_waals: {hamaker_constant: 1e-20 J}, born: {collision_diameter: 0.5 nm, hamaker_constant: 1e-20 J}}");
+  s.problem.interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
+  s.problem.interactions.surface_potential = {-25};
+  s.problem.interactions.gravity = forces::GravityParameters{};
+  const double a = 0.2, side = 2 * a + 4e-4;
+  test::add_particle(s.problem, s.position, a, Vec3(50, 50, 50));
+  test::add_particle(s.problem, s.position, a, Vec3(50 + side, 50, 50));
+  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(0.75), 50));
+  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(1.0 / 12), 50 - side * std::sqrt(2.0 / 3)));
+  const double liquid_mass = liquid_at(s.problem.interactions.liquid, s.problem.interactions.liquid.temperature).density * Particles::sphere_volume(a);
+  for (const Integrator integrator : {Integrator::NewtonImplicit, Integrator::BackwardDifferentiation}) {
+    int most = 0;
+    for (const double pull : {10.0, 30.0, 100.0})  // pN
+      for (const double step : {0.01, 0.03, 0.1, 0.3}) {
+        if (pull * step > 3) continue;
+        Setting here = s;
+        here.problem.particles.mass.assign(4, liquid_mass);
+        here.problem.particles.mass[0] += pull / s.problem.interactions.gravity->acceleration;
+        here.problem.stepping.integrator = integrator;
+        here.problem.stepping.time_step = step;
+        stepping::RunState state = stepping::initial_state(here.problem, here.position);
+        stepping::Stepper stepper(here.problem, state);
+        for (int k = 0; k < 20; ++k) {
+          const stepping::StepReport report = stepper.advance(state, step);
+          EXPECT_EQ(report.rejected, 0) << pull << " pN, " << step << " ms, step " << k;
+          EXPECT_GT(report.smallest_gap, 0);
+          most = std::max(most, report.solves);
+        }
+        EXPECT_GT(distance(state.position, here.position), 0.1);  // um
+      }
+    EXPECT_LE(most, 20);
+  }
+}
