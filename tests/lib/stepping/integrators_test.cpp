@@ -7,6 +7,7 @@
 #include "assembly/interaction_curves.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "stepping/step_context.h"
 #include "support/one_layer.h"
 
 using namespace pigment;
@@ -136,6 +137,19 @@ TEST(Stepper, NamesAParticleThatAStepThrowsAway) {
   stepping::Stepper implicit(s.problem, state);
   implicit.advance(state, 1e3);
   EXPECT_LT(distance(state.position, s.position), s.problem.cell.width_x);
+}
+
+// Of two gaps of a tenth of the scale or so one is off by a tenth of itself, the other has snapped: that counts as 0.3, however far it went.
+TEST(Integrators, OneGapThatSnapsCountsForNoMoreThanAnError) {
+  const Setting s = settling_triplet();
+  const stepping::RunState state = stepping::initial_state(s.problem, s.position);
+  const stepping::StepContext context(s.problem, state);
+  std::vector<double> gap(context.gaps(s.position).size(), 0.01), difference(gap.size(), 0.0);
+  ASSERT_EQ(gap.size(), 3u);
+  difference[0] = 1e-3;  // um
+  EXPECT_NEAR(context.gap_error(gap, difference), 0.1 / std::sqrt(3.0), 1e-12);
+  difference[1] = -5;
+  EXPECT_NEAR(context.gap_error(gap, difference), std::sqrt((0.01 + 0.09) / 3), 1e-12);
 }
 
 // The controlled step's error, measured against a far tighter run, is of the order of what was asked for.
