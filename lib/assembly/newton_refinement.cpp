@@ -30,6 +30,13 @@ constexpr double right_share = 0.1;
 constexpr double falling = 6e-4;       // um
 constexpr double furthest_turn = 0.9;  // cosine
 
+// Where an axis's turning changes a gap by more than this share of the scale, the axis half-way is taken. Forces belong along that at the
+// step's end, and half-way axes make a step of second order one of first: from a hundredth on a layer (HLL, 30 um) had 4 % more surface
+// pressure at 0.3 s, from a twentieth on 2 %, as with none. In a jam of charged particles they save a fifth of the passes. Splitting is of
+// first order anyhow.
+constexpr double finest_turn = 0.01, least_turn = 0.05;
+constexpr int stubborn = 4;  // passes after which all turn that may
+
 // Takes down that a gap came out off its guess. share: of its force, by which the linear law is wrong there; moved: by how much the gap
 // changes in the step, um. A pair that is off by a share of the force that others balance moves them by that share of the length over which
 // theirs change e-fold, and what is off balance moves by that share of its motion.
@@ -136,7 +143,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       // What the linear law's force belongs to: not the gap itself, where the axis turned otherwise than the last pass had it.
       const double linear_gap = newton_ ? gap_from(p) + along + turn_[p] : gap;
       if (newton_) turn_[p] = gap - gap_from(p) - along;
-      if (newton_ && std::abs(turn_[p]) > 0.01 * scale) {
+      if (newton_ && std::abs(turn_[p]) > (split_ || passes_ >= stubborn ? finest_turn : least_turn) * scale) {
         const auto [i, j] = pairs_[p];
         Vec3 d = separation_[p];
         for (int q = 0; q < 3; ++q) d[q] += dt_ * (swing_[4 * j + q] - swing_[4 * i + q]);
