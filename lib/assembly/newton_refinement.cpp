@@ -16,7 +16,7 @@ namespace {
 // Particles that neither touch the surface nor leave it may be held in one pass and free in the next for ever. After some passes one
 // stays as it is that the surface holds back by less than kT/nm, or that sticks out by less than a tenth of an atom.
 constexpr double weak_hold = 4;  // pN
-constexpr int unsure = 3;
+constexpr int unsure = 3;  // passes after which the load that held a particle no longer foretells its height
 
 // Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess. A
 // hundredth took a quarter more passes, whose solves had next to nothing to do.
