@@ -18,7 +18,7 @@ namespace {
 constexpr double weak_hold = 4;  // pN
 constexpr int unsure = 3;  // passes after which the load that held a particle no longer foretells its height
 
-// Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess. A
+// Newton's method ends where what its linearisation left is this share of the step's tolerance, no gap being further from its guess (but see right_share). A
 // hundredth took a quarter more passes, whose solves had next to nothing to do.
 constexpr double linearisation_share = 0.05, linear_range = 0.3;
 // A gap may be further off if its linear law is wrong there by less than this share of the force: contacts that open and close in a jam cross
@@ -35,7 +35,7 @@ constexpr double furthest_turn = 0.9;  // cosine
 // pressure at 0.3 s, from a twentieth on 2 %, as with none. In a jam of charged particles they save a fifth of the passes. Splitting is of
 // first order anyhow.
 constexpr double finest_turn = 0.01, least_turn = 0.05;
-constexpr int stubborn = 4;  // passes after which all turn that may
+constexpr int most_usual_passes = 4;  // a step that needs more has axes turned from finest_turn on
 
 // Takes down that a gap came out off its guess. share: of its force, by which the linear law is wrong there; moved: by how much the gap
 // changes in the step, um. A pair that is off by a share of the force that others balance moves them by that share of the length over which
@@ -143,7 +143,7 @@ GapCheck StepAssembly::refine(const solve::PairSystem& system, const std::vector
       // What the linear law's force belongs to: not the gap itself, where the axis turned otherwise than the last pass had it.
       const double linear_gap = newton_ ? gap_from(p) + along + turn_[p] : gap;
       if (newton_) turn_[p] = gap - gap_from(p) - along;
-      if (newton_ && std::abs(turn_[p]) > (split_ || passes_ >= stubborn ? finest_turn : least_turn) * scale) {
+      if (newton_ && std::abs(turn_[p]) > (split_ || passes_ >= most_usual_passes ? finest_turn : least_turn) * scale) {
         const auto [i, j] = pairs_[p];
         Vec3 d = separation_[p];
         for (int q = 0; q < 3; ++q) d[q] += dt_ * (swing_[4 * j + q] - swing_[4 * i + q]);

@@ -49,7 +49,8 @@ struct GapCheck {
   bool only_pairs = true;      // nothing but open gaps of pairs asks for it
   bool counted = true;         // all that asks for it has its share in `linearisation`
   double miss = 0;             // sum of squares of how far gaps came out from their guesses, in units of gap + scale
-  double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess, and of how far
+  double linearisation = 0;    // the same of what is left of a force linearised so far off, (gap - guess)^2/2 guess or less where
+                               // the true force there is nearly the linear law's, and of how far
                                // particles at the surface stick out of it or would be moved by what it holds them with wrongly
   double farthest = 0;         // largest |gap - guess|/guess
   bool far = false, deep = false;  // some gap came out so far off its guess, or so much nearer, that its linear law says nothing of it

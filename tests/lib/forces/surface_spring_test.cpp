@@ -76,7 +76,7 @@ TEST(SurfaceSpring, HoldsExactlyUpToHalfOfWhatWouldLiftByAHundredthOfANanometre)
 TEST(SurfaceSpring, WhatIsLiftedIsPulledBackMoreThanWhatIsHeld) {
   for (const auto& p : {arc, gain}) {
     const double load = rigid_load(p, 0.2);
-    EXPECT_NEAR(lifted_spring(p, 0.2, 1e-12).force, load, 1e-6 * load);
+    EXPECT_EQ(lifted_spring(p, 0.2, 0).force, load);
     double before = load;
     for (double h = 1e-7; h < 0.1; h *= 1.1) {
       const double f = lifted_spring(p, 0.2, h).force;

@@ -64,6 +64,18 @@ Setting uncharged() {
   return s;
 }
 
+// Adds four spheres of 0.2 um, each so far (um) from the others, and gravity, by which one that has more mass than the liquid in its place is
+// pulled at: the mass returned.
+double add_tetrahedron(Setting& s, double gap) {
+  const double a = 0.2, side = 2 * a + gap;
+  test::add_particle(s.problem, s.position, a, Vec3(50, 50, 50));
+  test::add_particle(s.problem, s.position, a, Vec3(50 + side, 50, 50));
+  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(0.75), 50));
+  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(1.0 / 12), 50 - side * std::sqrt(2.0 / 3)));
+  s.problem.interactions.gravity = forces::GravityParameters{};
+  return liquid_at(s.problem.interactions.liquid, s.problem.interactions.liquid.temperature).density * Particles::sphere_volume(a);
+}
+
 }  // namespace
 
 // The error against the converged path falls as step^order: halving the step four times over must show it within a sixth. The
@@ -139,7 +151,8 @@ TEST(Stepper, NamesAParticleThatAStepThrowsAway) {
   EXPECT_LT(distance(state.position, s.position), s.problem.cell.width_x);
 }
 
-// Of two gaps of a tenth of the scale or so one is off by a tenth of itself, the other has snapped: that counts as 0.3, however far it went.
+// Of three gaps one is off by a tenth of itself, another has snapped: that counts as 0.3, however far it went. (Before the first step the scale
+// beside the gaps is zero.)
 TEST(Integrators, OneGapThatSnapsCountsForNoMoreThanAnError) {
   const Setting s = settling_triplet();
   const stepping::RunState state = stepping::initial_state(s.problem, s.position);
@@ -219,13 +232,7 @@ TEST(Integrators, ConvexSplittingNeverGainsEnergy) {
 // to the side, where it swings round two of them while the third bond tears: steps of any length find their solution, in a few passes.
 TEST(Integrators, ConvexSplittingTearsBondsInAFewPasses) {
   Setting s = uncharged();
-  s.problem.interactions.gravity = forces::GravityParameters{};
-  const double a = 0.2, side = 2 * a + 3e-4;
-  test::add_particle(s.problem, s.position, a, Vec3(50, 50, 50));
-  test::add_particle(s.problem, s.position, a, Vec3(50 + side, 50, 50));
-  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(0.75), 50));
-  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(1.0 / 12), 50 - side * std::sqrt(2.0 / 3)));
-  const double liquid_mass = liquid_at(s.problem.interactions.liquid, s.problem.interactions.liquid.temperature).density * Particles::sphere_volume(a);
+  const double liquid_mass = add_tetrahedron(s, 3e-4);
   s.problem.particles.mass.assign(4, liquid_mass);  // none has any weight but the one that is pulled at
   int most = 0;
   double farthest = 0;
@@ -258,13 +265,7 @@ TEST(Integrators, NewtonFollowsASwingingSphereInAFewPasses) {
       "colloidal: {electrostatic: {debye_length: 1 nm}, van_der_waals: {hamaker_constant: 1e-20 J}, born: {collision_diameter: 0.5 nm, hamaker_constant: 1e-20 J}}");
   s.problem.interactions.colloidal = forces::read_colloidal(document.root().block("colloidal"));
   s.problem.interactions.surface_potential = {-25};
-  s.problem.interactions.gravity = forces::GravityParameters{};
-  const double a = 0.2, side = 2 * a + 4e-4;
-  test::add_particle(s.problem, s.position, a, Vec3(50, 50, 50));
-  test::add_particle(s.problem, s.position, a, Vec3(50 + side, 50, 50));
-  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(0.75), 50));
-  test::add_particle(s.problem, s.position, a, Vec3(50 + side / 2, 50 + side * std::sqrt(1.0 / 12), 50 - side * std::sqrt(2.0 / 3)));
-  const double liquid_mass = liquid_at(s.problem.interactions.liquid, s.problem.interactions.liquid.temperature).density * Particles::sphere_volume(a);
+  const double liquid_mass = add_tetrahedron(s, 4e-4);
   for (const Integrator integrator : {Integrator::NewtonImplicit, Integrator::BackwardDifferentiation}) {
     int most = 0;
     for (const double pull : {10.0, 30.0, 100.0})  // pN
